@@ -1,0 +1,54 @@
+#include "engine/arena.h"
+
+#include "engine/device.h"
+
+#include <algorithm>
+
+namespace engine {
+
+namespace {
+
+constexpr VkDeviceSize kMinAlignment = 256;
+constexpr VkDeviceSize kMinTake = 16;
+
+} // namespace
+
+Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity, std::string_view name) {
+    auto buffer = Buffer::create(device, capacity, BufferDomain::Device, 0, name);
+    if (!buffer) return buffer.error();
+    ScratchArena arena;
+    arena.buffer_ = std::make_unique<Buffer>(std::move(*buffer));
+    arena.alignment_ = std::max(kMinAlignment, device.limits().minStorageBufferOffsetAlignment);
+    return arena;
+}
+
+BufferView ScratchArena::take(VkDeviceSize bytes) {
+    const VkDeviceSize size = (std::max(bytes, kMinTake) + 3) / 4 * 4;
+    const VkDeviceSize begin = used_;
+    used_ = (begin + size + alignment_ - 1) / alignment_ * alignment_;
+    peak_ = std::max(peak_, begin + size);
+    if (begin + size > capacity()) {
+        overflowed_ = true;
+        return {};
+    }
+    return {buffer_.get(), begin, size};
+}
+
+void ScratchArena::release(Mark mark) {
+    ENGINE_ASSERT(mark <= used_);
+    used_ = mark;
+}
+
+void ScratchArena::reset() {
+    used_ = 0;
+    peak_ = 0;
+    overflowed_ = false;
+}
+
+Result<void> ScratchArena::status() const {
+    if (!overflowed_) return {};
+    return Error{ErrorCode::Capacity, "arena \"" + buffer_->name() + "\" holds " + std::to_string(capacity()) +
+                                          " bytes, " + std::to_string(peak_) + " are needed"};
+}
+
+} // namespace engine

@@ -1,0 +1,40 @@
+// The general buffer: scratch memory of one event or frame. What is taken between mark() and release() shares its memory
+// with what is taken afterwards; the barriers that Commands derives keep the two apart.
+#pragma once
+
+#include "engine/buffer.h"
+
+#include <memory>
+
+namespace engine {
+
+class ScratchArena {
+public:
+    using Mark = VkDeviceSize;
+
+    // The capacity is fixed: plan it first.
+    static Result<ScratchArena> create(Device& device, VkDeviceSize capacity, std::string_view name = "scratch");
+
+    // A range that can be bound as storage, of at least 16 bytes. Where it does not fit the view is empty and status() fails
+    // until the next reset(); taking goes on, so that the message names all that would have been needed.
+    BufferView take(VkDeviceSize bytes);
+    Mark mark() const { return used_; }
+    void release(Mark mark);
+    void reset();
+
+    Result<void> status() const;
+    VkDeviceSize capacity() const { return buffer_->size(); }
+    VkDeviceSize used() const { return used_; }
+    VkDeviceSize peak() const { return peak_; } // the most that was in use at a time, also what did not fit
+    const Buffer& buffer() const { return *buffer_; }
+
+private:
+    ScratchArena() = default;
+    std::unique_ptr<Buffer> buffer_; // views point at it, also when the arena is moved
+    VkDeviceSize alignment_ = 256;
+    VkDeviceSize used_ = 0;
+    VkDeviceSize peak_ = 0;
+    bool overflowed_ = false;
+};
+
+} // namespace engine

@@ -1,0 +1,322 @@
+#include "engine/commands.h"
+
+#include "engine/device.h"
+
+#include <algorithm>
+#include <array>
+
+namespace engine {
+
+namespace {
+
+constexpr uint32_t kMaxGroupsPerDimension = 65535; // what every device has
+constexpr VkDeviceSize kIndirectBytes = 3 * sizeof(uint32_t);
+
+// All that a command recorded here may do.
+constexpr VkPipelineStageFlags kStages =
+    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+constexpr VkAccessFlags kAccesses = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                                    VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+
+Access accessOf(const BufferView& view, bool write, VkPipelineStageFlags stage, VkAccessFlags mask) {
+    return {view.buffer->handle(), view.offset, view.offset + view.size, write, stage, mask};
+}
+
+Access kernelAccess(const BufferView& view, const ReflectedBinding& binding) {
+    const VkAccessFlags read = binding.writeonly ? 0 : VK_ACCESS_SHADER_READ_BIT;
+    const VkAccessFlags write = binding.readonly ? 0 : VK_ACCESS_SHADER_WRITE_BIT;
+    return accessOf(view, !binding.readonly, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, read | write);
+}
+
+bool fits(const BufferView& view) { return view.offset + view.size <= view.buffer->size(); }
+
+VkBufferMemoryBarrier transferOf(const Device& device, const BufferView& view) {
+    VkBufferMemoryBarrier barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER};
+    barrier.srcQueueFamilyIndex = device.computeQueue().family;
+    barrier.dstQueueFamilyIndex = device.graphicsQueue().family;
+    barrier.buffer = view.buffer->handle();
+    barrier.offset = view.offset;
+    barrier.size = view.size;
+    return barrier;
+}
+
+} // namespace
+
+Commands::Commands(Device& device) : device_(device), descriptors_(device), timestamps_(device, device.computeQueue()) {}
+
+Commands::Commands(Device& device, VkCommandBuffer external) : Commands(device) {
+    external_ = true;
+    commands_ = external;
+    recording_ = true;
+}
+
+Commands::~Commands() {
+    if (pool_ != VK_NULL_HANDLE) device_.vk().vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+    if (fence_ != VK_NULL_HANDLE) device_.vk().vkDestroyFence(device_.handle(), fence_, nullptr);
+}
+
+Result<void> Commands::createOwn() {
+    const VolkDeviceTable& vk = device_.vk();
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.queueFamilyIndex = device_.computeQueue().family;
+    VkResult made = vk.vkCreateCommandPool(device_.handle(), &pool, nullptr, &pool_);
+    if (made != VK_SUCCESS) return vulkanError("command pool", made);
+    VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    commands.commandPool = pool_;
+    commands.commandBufferCount = 1;
+    made = vk.vkAllocateCommandBuffers(device_.handle(), &commands, &commands_);
+    if (made != VK_SUCCESS) return vulkanError("command buffer", made);
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    made = vk.vkCreateFence(device_.handle(), &fence, nullptr, &fence_);
+    if (made != VK_SUCCESS) return vulkanError("fence", made);
+    return {};
+}
+
+Result<void> Commands::begin() {
+    error_.reset();
+    hazards_.flush();
+    descriptors_.reset();
+    timestamps_.reset();
+    dispatch_count_ = 0;
+    barrier_count_ = 0;
+    if (external_) return {};
+    if (pool_ == VK_NULL_HANDLE) {
+        if (auto made = createOwn(); !made) return made;
+    }
+    device_.vk().vkResetCommandPool(device_.handle(), pool_, 0);
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    const VkResult begun = device_.vk().vkBeginCommandBuffer(commands_, &info);
+    if (begun != VK_SUCCESS) return vulkanError("cannot begin a command buffer", begun);
+    recording_ = true;
+    return {};
+}
+
+Result<void> Commands::submitAndWait() {
+    if (auto submitted = submit(); !submitted) return submitted;
+    return wait();
+}
+
+Result<void> Commands::submit() {
+    ENGINE_ASSERT(!external_ && recording_);
+    recording_ = false;
+    if (timestamps_.open()) fail({ErrorCode::Internal, "a label is still open at the end of a recording"});
+    flush();
+    const VkResult ended = device_.vk().vkEndCommandBuffer(commands_);
+    if (error_) return *error_;
+    if (ended != VK_SUCCESS) return vulkanError("cannot end a command buffer", ended);
+    device_.vk().vkResetFences(device_.handle(), 1, &fence_);
+    return device_.submit(device_.computeQueue(), commands_, fence_);
+}
+
+Result<void> Commands::wait() {
+    const VkResult waited = device_.vk().vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
+    if (waited != VK_SUCCESS) return vulkanError("waiting for the device " + device_.name(), waited);
+    return {};
+}
+
+Result<void> Commands::status() const {
+    if (error_) return *error_;
+    return {};
+}
+
+void Commands::dispatch(const Kernel& kernel, uint32_t invocations, Bytes push, Views buffers) {
+    const uint32_t size = kernel.reflection.local_size[0];
+    dispatchGroups(kernel, invocations / size + (invocations % size != 0 ? 1 : 0), push, buffers);
+}
+
+// More groups than one dimension takes are spread evenly over rows, so that less than a row's count of groups is too many.
+void Commands::dispatchGroups(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers) {
+    if (groups == 0) {
+        accepts(kernel, push, buffers);
+        return;
+    }
+    if (!prepare(kernel, push, buffers, nullptr)) return;
+    const uint32_t rows = (groups - 1) / kMaxGroupsPerDimension + 1;
+    device_.vk().vkCmdDispatch(commands_, (groups - 1) / rows + 1, rows, 1);
+    ++dispatch_count_;
+}
+
+void Commands::dispatchIndirect(const Kernel& kernel, BufferView args, Bytes push, Views buffers) {
+    if (args.buffer == nullptr || args.size < kIndirectBytes || args.offset % 4 != 0 || !fits(args)) {
+        failKernel(kernel, "indirect arguments that are not three words of a buffer");
+        return;
+    }
+    if (!prepare(kernel, push, buffers, &args)) return;
+    device_.vk().vkCmdDispatchIndirect(commands_, args.buffer->handle(), args.offset);
+    ++dispatch_count_;
+}
+
+bool Commands::prepare(const Kernel& kernel, Bytes push, Views buffers, const BufferView* args) {
+    if (!accepts(kernel, push, buffers)) return false;
+    std::array<Access, kMaxBindings + 1> accesses;
+    size_t count = 0;
+    for (const BufferView& view : buffers) {
+        accesses[count] = kernelAccess(view, kernel.reflection.bindings[count]);
+        ++count;
+    }
+    if (args != nullptr) {
+        const BufferView words = args->sub(0, kIndirectBytes);
+        accesses[count++] = accessOf(words, false, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
+    }
+    declare({accesses.data(), count});
+    const VolkDeviceTable& vk = device_.vk();
+    vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
+    if (!push.empty()) {
+        vk.vkCmdPushConstants(commands_, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size, push.data());
+    }
+    return bindBuffers(kernel, buffers);
+}
+
+bool Commands::accepts(const Kernel& kernel, Bytes push, Views buffers) {
+    ENGINE_ASSERT(recording_);
+    // C++ rounds a struct with 64-bit members up to 8 bytes, SPIR-V ends it with its last member.
+    const uint32_t wanted = kernel.reflection.push_size;
+    if (push.size() != wanted && push.size() != (wanted + 7) / 8 * 8) {
+        failKernel(kernel, "push block of " + std::to_string(push.size()) + " bytes, it has " + std::to_string(wanted));
+        return false;
+    }
+    if (buffers.size() != kernel.bufferCount()) {
+        failKernel(kernel, std::to_string(buffers.size()) + " buffers, it binds " + std::to_string(kernel.bufferCount()));
+        return false;
+    }
+    for (uint32_t slot = 0; slot < buffers.size(); ++slot) {
+        if (!acceptsView(kernel, slot, buffers[slot])) return false;
+    }
+    return true;
+}
+
+bool Commands::acceptsView(const Kernel& kernel, uint32_t slot, const BufferView& view) {
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    std::string why;
+    if (view.buffer == nullptr || view.size == 0)
+        why = "is empty";
+    else if (!fits(view))
+        why = "ends past its buffer \"" + view.buffer->name() + "\"";
+    else if (view.offset % limits.minStorageBufferOffsetAlignment != 0)
+        why = "starts at " + std::to_string(view.offset) + ", no multiple of " + std::to_string(limits.minStorageBufferOffsetAlignment);
+    else if (view.size > limits.maxStorageBufferRange)
+        why = "has " + std::to_string(view.size) + " bytes, a binding holds " + std::to_string(limits.maxStorageBufferRange);
+    if (why.empty()) return true;
+    failKernel(kernel, "view " + std::to_string(slot) + " (" + kernel.reflection.bindings[slot].name + ") " + why);
+    return false;
+}
+
+bool Commands::bindBuffers(const Kernel& kernel, Views buffers) {
+    if (buffers.empty()) return true;
+    std::array<VkDescriptorBufferInfo, kMaxBindings> infos;
+    for (size_t i = 0; i < buffers.size(); ++i)
+        infos[i] = {buffers[i].buffer->handle(), buffers[i].offset, buffers[i].size};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.descriptorCount = static_cast<uint32_t>(buffers.size());
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    write.pBufferInfo = infos.data();
+    const VolkDeviceTable& vk = device_.vk();
+    if (device_.hasPushDescriptors()) {
+        vk.vkCmdPushDescriptorSetKHR(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &write);
+        return true;
+    }
+    auto set = descriptors_.allocate(kernel.set_layout, kernel.bufferCount());
+    if (!set) {
+        fail(set.error());
+        return false;
+    }
+    write.dstSet = *set;
+    vk.vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &*set, 0, nullptr);
+    return true;
+}
+
+void Commands::fill(BufferView target, uint32_t value) {
+    if (target.size == 0) return;
+    if (target.buffer == nullptr || target.offset % 4 != 0 || target.size % 4 != 0 || !fits(target)) {
+        fail({ErrorCode::Internal, "fill of a view that is not whole words of a buffer"});
+        return;
+    }
+    const Access access = accessOf(target, true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    declare({&access, 1});
+    device_.vk().vkCmdFillBuffer(commands_, target.buffer->handle(), target.offset, target.size, value);
+}
+
+void Commands::copy(BufferView source, BufferView target) {
+    if (source.size == 0) return;
+    if (source.buffer == nullptr || target.buffer == nullptr || target.size < source.size || !fits(source) || !fits(target)) {
+        fail({ErrorCode::Internal, "copy of " + std::to_string(source.size) + " bytes to " + std::to_string(target.size)});
+        return;
+    }
+    const Access accesses[] = {
+        accessOf(source, false, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT),
+        accessOf(target.sub(0, source.size), true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT)};
+    declare(accesses);
+    const VkBufferCopy region{source.offset, target.offset, source.size};
+    device_.vk().vkCmdCopyBuffer(commands_, source.buffer->handle(), target.buffer->handle(), 1, &region);
+}
+
+void Commands::beginLabel(std::string_view name) {
+    if (timestamps_.open()) {
+        fail({ErrorCode::Internal, "label \"" + std::string(name) + "\" begins inside another"});
+        return;
+    }
+    if (auto begun = timestamps_.begin(commands_, name); !begun) fail(begun.error());
+    if (!device_.hasDebugUtils()) return;
+    const std::string terminated(name);
+    VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+    label.pLabelName = terminated.c_str();
+    vkCmdBeginDebugUtilsLabelEXT(commands_, &label);
+}
+
+void Commands::endLabel() {
+    timestamps_.end(commands_);
+    if (device_.hasDebugUtils()) vkCmdEndDebugUtilsLabelEXT(commands_);
+}
+
+void Commands::flush() {
+    const BarrierSource source = hazards_.flush();
+    if (source.stages == 0) return;
+    VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    barrier.srcAccessMask = source.writes;
+    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+    device_.vk().vkCmdPipelineBarrier(commands_, source.stages, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
+                                      0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+void Commands::declare(std::span<const Access> accesses) {
+    const auto source = hazards_.add(accesses);
+    if (!source) return;
+    VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, source->writes, kAccesses};
+    device_.vk().vkCmdPipelineBarrier(commands_, source->stages, kStages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+    ++barrier_count_;
+}
+
+void Commands::releaseToGraphics(std::span<const BufferView> buffers) {
+    if (device_.sharesQueueFamily() || !device_.hasGraphics()) return;
+    flush();
+    std::vector<VkBufferMemoryBarrier> barriers;
+    for (const BufferView& view : buffers) {
+        barriers.push_back(transferOf(device_, view));
+        barriers.back().srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+    }
+    device_.vk().vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 0,
+                                      nullptr, static_cast<uint32_t>(barriers.size()), barriers.data(), 0, nullptr);
+}
+
+void Commands::acquireFromCompute(const Device& device, VkCommandBuffer graphics, std::span<const BufferView> buffers) {
+    if (device.sharesQueueFamily()) return;
+    std::vector<VkBufferMemoryBarrier> barriers;
+    for (const BufferView& view : buffers) {
+        barriers.push_back(transferOf(device, view));
+        barriers.back().dstAccessMask = VK_ACCESS_MEMORY_READ_BIT;
+    }
+    device.vk().vkCmdPipelineBarrier(graphics, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                                     nullptr, static_cast<uint32_t>(barriers.size()), barriers.data(), 0, nullptr);
+}
+
+void Commands::fail(Error error) {
+    if (!error_) error_ = std::move(error);
+}
+
+void Commands::failKernel(const Kernel& kernel, const std::string& why) {
+    fail({ErrorCode::Internal, "dispatch of \"" + kernel.name + "\": " + why});
+}
+
+} // namespace engine

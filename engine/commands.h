@@ -1,0 +1,121 @@
+// Records work for the compute queue: dispatches, fills and copies, with the barriers between them derived from what each
+// kernel says it reads and writes, and device time by label.
+//
+// Mistakes of the caller (a wrong number of buffers, a push block of another size, an empty view) do not throw and do not
+// stop the recording: the first one is kept, and status() and submitAndWait() return it.
+#pragma once
+
+#include "engine/buffer.h"
+#include "engine/descriptors.h"
+#include "engine/hazards.h"
+#include "engine/kernel.h"
+#include "engine/timestamps.h"
+
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace engine {
+
+struct NoPush {};
+
+class Commands {
+public:
+    // With a command buffer of its own, for the compute queue.
+    explicit Commands(Device& device);
+    // Only records, into a command buffer of the caller, who has begun it, ends it and submits it to the compute queue.
+    Commands(Device& device, VkCommandBuffer external);
+    ~Commands();
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+
+    // Starts a recording; what was recorded before must have finished, and its timings are forgotten.
+    Result<void> begin();
+    // Ends the recording, submits it, waits for the device, and makes all that it wrote visible to the host.
+    Result<void> submitAndWait();
+    // The same in two steps.
+    Result<void> submit();
+    Result<void> wait();
+    // The first mistake of this recording.
+    Result<void> status() const;
+
+    // As many lanes as asked for, rounded up to whole workgroups; none record nothing.
+    template <class Push>
+    void dispatch(const Kernel& kernel, uint32_t invocations, const Push& push, std::initializer_list<BufferView> buffers) {
+        dispatch(kernel, invocations, bytesOf(push), {buffers.begin(), buffers.size()});
+    }
+    template <class Push>
+    void dispatchGroups(const Kernel& kernel, uint32_t groups, const Push& push, std::initializer_list<BufferView> buffers) {
+        dispatchGroups(kernel, groups, bytesOf(push), {buffers.begin(), buffers.size()});
+    }
+    // `args` holds three words: the number of workgroups in x, y and z.
+    template <class Push>
+    void dispatchIndirect(const Kernel& kernel, BufferView args, const Push& push, std::initializer_list<BufferView> buffers) {
+        dispatchIndirect(kernel, args, bytesOf(push), {buffers.begin(), buffers.size()});
+    }
+
+    using Bytes = std::span<const std::byte>;
+    using Views = std::span<const BufferView>;
+    void dispatch(const Kernel& kernel, uint32_t invocations, Bytes push, Views buffers);
+    void dispatchGroups(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers);
+    void dispatchIndirect(const Kernel& kernel, BufferView args, Bytes push, Views buffers);
+
+    // Whole words only. Empty views record nothing.
+    void fill(BufferView target, uint32_t value);
+    void copy(BufferView source, BufferView target);
+
+    // Device time between the two, under this name. Labels do not nest.
+    void beginLabel(std::string_view name);
+    void endLabel();
+    // Once the device has finished.
+    Result<std::vector<Timing>> timings() const { return timestamps_.read(); }
+
+    // Makes all that was recorded visible to every later command and to the host. An own recording ends with it; a caller's
+    // command buffer needs it before commands that were not recorded here.
+    void flush();
+
+    // Hands buffers from the compute to the graphics family, and takes them over there: record the first into a compute and
+    // the second into a graphics command buffer that is submitted after it. Nothing to do where the families are one.
+    void releaseToGraphics(std::span<const BufferView> buffers);
+    static void acquireFromCompute(const Device& device, VkCommandBuffer graphics, std::span<const BufferView> buffers);
+
+    VkCommandBuffer handle() const { return commands_; }
+    uint32_t dispatchCount() const { return dispatch_count_; }
+    uint32_t barrierCount() const { return barrier_count_; }
+
+private:
+    template <class Push>
+    static Bytes bytesOf(const Push& push) {
+        static_assert(std::is_trivially_copyable_v<Push>);
+        if constexpr (std::is_empty_v<Push>)
+            return {};
+        else
+            return std::as_bytes(std::span(&push, 1));
+    }
+    void fail(Error error);
+    void failKernel(const Kernel& kernel, const std::string& why);
+    bool accepts(const Kernel& kernel, Bytes push, Views buffers);
+    bool acceptsView(const Kernel& kernel, uint32_t slot, const BufferView& view);
+    bool prepare(const Kernel& kernel, Bytes push, Views buffers, const BufferView* args);
+    bool bindBuffers(const Kernel& kernel, Views buffers);
+    void declare(std::span<const Access> accesses);
+    Result<void> createOwn();
+
+    Device& device_;
+    bool external_ = false;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    bool recording_ = false;
+    HazardTracker hazards_;
+    DescriptorPools descriptors_;
+    Timestamps timestamps_;
+    std::optional<Error> error_;
+    uint32_t dispatch_count_ = 0;
+    uint32_t barrier_count_ = 0;
+};
+
+} // namespace engine

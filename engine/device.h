@@ -1,0 +1,91 @@
+// The device that everything else is made from: picks a GPU, owns its queues, its memory and its pipeline cache.
+// It outlives all that was made from it.
+#pragma once
+
+#include "engine/device_select.h"
+#include "engine/instance.h"
+#include "engine/memory.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace engine {
+
+struct DeviceOptions {
+    std::string select;                    // a part of the name or an index; empty: BRITTLE_DEVICE, else the best
+    bool force_pooled_descriptors = false; // as if there were no push descriptors
+    bool minimal = false;                  // nothing optional at all, as a host engine's device may be
+};
+
+struct Queue {
+    VkQueue handle = VK_NULL_HANDLE;
+    uint32_t family = 0;
+    uint32_t timestamp_bits = 0;
+};
+
+class Device {
+public:
+    static Result<std::unique_ptr<Device>> create(const DeviceOptions& options = {});
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const std::string& name() const { return info_.name; }
+    const std::string& driver() const { return info_.driver; }
+    bool isCpu() const { return info_.cpu; }
+    const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+    const OptionalFeatures& features() const { return features_; }
+    bool hasPushDescriptors() const { return features_.push_descriptors; }
+    uint32_t subgroupSize() const { return subgroup_.subgroupSize; }
+    // VK_SUBGROUP_FEATURE_*, 0 where compute shaders have none.
+    VkSubgroupFeatureFlags subgroupOperations() const;
+
+    // A family of its own for compute where there is one, otherwise the same queue.
+    const Queue& computeQueue() const { return compute_; }
+    const Queue& graphicsQueue() const { return graphics_; }
+    bool hasGraphics() const { return graphics_.handle != VK_NULL_HANDLE; }
+    bool sharesQueueFamily() const { return compute_.family == graphics_.family; }
+
+    VkDevice handle() const { return handle_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    const VolkDeviceTable& vk() const { return table_; }
+    VkPipelineCache pipelineCache() const { return pipeline_cache_; }
+    MemoryPool& memory() { return *memory_; }
+
+    // Safe from any thread; both queues may be one.
+    Result<void> submit(const Queue& queue, VkCommandBuffer commands, VkFence fence);
+    void waitIdle();
+
+    // Errors and warnings of the validation layers about this device's instance; 0 without layers.
+    uint32_t validationMessageCount() const { return instance_->validationMessageCount(); }
+    // For messages and captures; does nothing without the debug extension.
+    void setName(VkObjectType type, uint64_t object, std::string_view name) const;
+    bool hasDebugUtils() const { return instance_->hasDebugUtils(); }
+
+private:
+    Device() = default;
+    Result<void> open(const DeviceOptions& options);
+    Result<void> createLogical();
+    void pickFamilies();
+
+    std::unique_ptr<Instance> instance_;
+    DeviceInfo info_;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkPhysicalDeviceProperties properties_{};
+    VkPhysicalDeviceSubgroupProperties subgroup_{};
+    OptionalFeatures features_;
+    Queue compute_, graphics_;
+    bool minimal_ = false;
+    VkDevice handle_ = VK_NULL_HANDLE;
+    VolkDeviceTable table_{};
+    VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
+    std::unique_ptr<MemoryPool> memory_;
+    std::mutex submit_mutex_;
+};
+
+// All devices of this machine, usable or not; empty where there is no Vulkan.
+std::vector<DeviceInfo> listDevices();
+
+} // namespace engine

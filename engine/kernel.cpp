@@ -1,0 +1,173 @@
+#include "engine/kernel.h"
+
+#include "engine/device.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+namespace engine {
+
+namespace {
+
+Error refused(std::string_view kernel, const std::string& why) {
+    return {ErrorCode::Internal, "kernel \"" + std::string(kernel) + "\": " + why};
+}
+
+// A kernel's buffers are the bindings 0, 1, 2, ... of set 0, so that a dispatch can list them in order.
+Result<void> checkInterface(const Kernel& kernel, const VkPhysicalDeviceLimits& limits) {
+    const Reflection& r = kernel.reflection;
+    if (r.stage != ShaderStage::Compute) return refused(kernel.name, "is not a compute shader");
+    for (uint32_t i = 0; i < r.bindings.size(); ++i) {
+        const ReflectedBinding& b = r.bindings[i];
+        if (!b.storage_buffer) return refused(kernel.name, "binds \"" + b.name + "\", which is no storage buffer");
+        if (b.set != 0 || b.binding != i) {
+            return refused(kernel.name, "binding " + std::to_string(i) + " of set 0 is missing or there twice");
+        }
+    }
+    const uint32_t most = std::min(kMaxBindings, limits.maxPerStageDescriptorStorageBuffers);
+    if (r.bindings.size() > most) {
+        return refused(kernel.name, "binds " + std::to_string(r.bindings.size()) + " buffers, the device has " + std::to_string(most));
+    }
+    if (r.push_size > limits.maxPushConstantsSize) return refused(kernel.name, "has too many push constants");
+    if (r.local_size[1] != 1 || r.local_size[2] != 1) return refused(kernel.name, "has a workgroup of more than one dimension");
+    if (r.local_size[0] > limits.maxComputeWorkGroupInvocations) return refused(kernel.name, "has too large a workgroup");
+    return {};
+}
+
+} // namespace
+
+KernelLibrary::KernelLibrary(Device& device, std::span<const shaders::Module> modules) : device_(device), modules_(modules) {}
+
+KernelLibrary::~KernelLibrary() {
+    device_.waitIdle();
+    for (const auto& [key, kernel] : kernels_)
+        destroy(*kernel);
+}
+
+Result<const Kernel*> KernelLibrary::get(std::string_view name, std::span<const uint32_t> spec) {
+    Key key{std::string(name), {spec.begin(), spec.end()}};
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = kernels_.find(key); found != kernels_.end()) return found->second.get();
+    }
+    // Made outside the lock, so that several can be made at a time; of two threads with the same wish one throws its away.
+    auto made = make(name, spec);
+    if (!made) return made.error();
+    const std::lock_guard lock(mutex_);
+    const auto [place, inserted] = kernels_.try_emplace(std::move(key), std::move(*made));
+    if (!inserted) destroy(**made);
+    return place->second.get();
+}
+
+Result<void> KernelLibrary::warm(std::span<const KernelRequest> requests) {
+    std::atomic<size_t> next = 0;
+    std::mutex failure_mutex;
+    std::optional<Error> failure;
+    const auto work = [&] {
+        for (size_t i = next++; i < requests.size(); i = next++) {
+            auto made = get(requests[i].name, requests[i].spec);
+            if (made) continue;
+            const std::lock_guard lock(failure_mutex);
+            if (!failure) failure = made.error();
+        }
+    };
+    {
+        const size_t cores = std::max(1u, std::thread::hardware_concurrency());
+        std::vector<std::jthread> threads;
+        for (size_t i = 1; i < std::min(cores, requests.size()); ++i)
+            threads.emplace_back(work);
+        work();
+    }
+    if (failure) return *failure;
+    return {};
+}
+
+uint32_t KernelLibrary::kernelCount() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<uint32_t>(kernels_.size());
+}
+
+double KernelLibrary::creationMs() const {
+    const std::lock_guard lock(mutex_);
+    return creation_ms_;
+}
+
+Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::span<const uint32_t> spec) {
+    const auto module = std::ranges::find(modules_, name, &shaders::Module::name);
+    if (module == modules_.end()) return Error{ErrorCode::Internal, "no kernel is named \"" + std::string(name) + "\""};
+    auto reflection = reflect(module->words);
+    if (!reflection) return refused(name, reflection.error().message);
+    auto kernel = std::make_unique<Kernel>();
+    kernel->name = name;
+    kernel->reflection = std::move(*reflection);
+    auto made = checkInterface(*kernel, device_.limits());
+    if (made) made = makeLayouts(*kernel);
+    if (made) made = makePipeline(*kernel, module->words, spec);
+    if (made) return kernel;
+    destroy(*kernel);
+    return made.error();
+}
+
+Result<void> KernelLibrary::makeLayouts(Kernel& kernel) const {
+    const VolkDeviceTable& vk = device_.vk();
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (uint32_t i = 0; i < kernel.bufferCount(); ++i)
+        bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    set.flags = device_.hasPushDescriptors() ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
+    set.bindingCount = kernel.bufferCount();
+    set.pBindings = bindings.data();
+    VkResult made = vk.vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &kernel.set_layout);
+    if (made != VK_SUCCESS) return vulkanError("descriptor layout of kernel \"" + kernel.name + "\"", made);
+
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size};
+    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layout.setLayoutCount = 1;
+    layout.pSetLayouts = &kernel.set_layout;
+    layout.pushConstantRangeCount = push.size > 0 ? 1 : 0;
+    layout.pPushConstantRanges = &push;
+    made = vk.vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &kernel.layout);
+    if (made != VK_SUCCESS) return vulkanError("layout of kernel \"" + kernel.name + "\"", made);
+    return {};
+}
+
+Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const uint32_t> spec) {
+    const VolkDeviceTable& vk = device_.vk();
+    const auto start = std::chrono::steady_clock::now();
+    VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    code.codeSize = words.size_bytes();
+    code.pCode = words.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    VkResult made = vk.vkCreateShaderModule(device_.handle(), &code, nullptr, &module);
+    if (made != VK_SUCCESS) return vulkanError("module of kernel \"" + kernel.name + "\"", made);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < spec.size(); ++i)
+        entries.push_back({i, i * 4, 4});
+    const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(), spec.size_bytes(), spec.data()};
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, module, "main",
+                  spec.empty() ? nullptr : &constants};
+    info.layout = kernel.layout;
+    made = vk.vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &kernel.pipeline);
+    vk.vkDestroyShaderModule(device_.handle(), module, nullptr);
+    if (made != VK_SUCCESS) return vulkanError("pipeline of kernel \"" + kernel.name + "\"", made);
+
+    device_.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(kernel.pipeline), kernel.name);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    const std::lock_guard lock(mutex_);
+    creation_ms_ += took.count();
+    return {};
+}
+
+void KernelLibrary::destroy(const Kernel& kernel) const {
+    const VolkDeviceTable& vk = device_.vk();
+    vk.vkDestroyPipeline(device_.handle(), kernel.pipeline, nullptr);
+    vk.vkDestroyPipelineLayout(device_.handle(), kernel.layout, nullptr);
+    vk.vkDestroyDescriptorSetLayout(device_.handle(), kernel.set_layout, nullptr);
+}
+
+} // namespace engine

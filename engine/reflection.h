@@ -1,0 +1,48 @@
+// What a SPIR-V module says about itself: bindings, push block, workgroup size, specialization constants, struct layouts.
+#pragma once
+
+#include "engine/result.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace engine {
+
+struct ReflectedBinding {
+    uint32_t set = 0;
+    uint32_t binding = 0;
+    std::string name;
+    bool storage_buffer = false; // false: anything else
+    bool readonly = false;
+    bool writeonly = false;
+};
+
+struct ReflectedMember {
+    std::string name;
+    uint32_t offset = 0;
+};
+
+// A struct with explicit offsets; array_stride is 0 where no array of it stands in the module.
+struct ReflectedStruct {
+    std::string name;
+    std::vector<ReflectedMember> members;
+    uint32_t array_stride = 0;
+};
+
+enum class ShaderStage { Compute, Vertex, Fragment, Other };
+
+struct Reflection {
+    ShaderStage stage = ShaderStage::Other;
+    std::vector<ReflectedBinding> bindings; // by set and binding
+    uint32_t push_size = 0;                 // bytes up to the end of the last member
+    std::array<uint32_t, 3> local_size = {1, 1, 1};
+    std::vector<uint32_t> spec_ids; // ascending
+    std::vector<ReflectedStruct> structs;
+};
+
+Result<Reflection> reflect(std::span<const uint32_t> words);
+
+} // namespace engine

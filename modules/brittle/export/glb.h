@@ -1,0 +1,18 @@
+// Fragments as a binary glTF file.
+//
+// A node and a mesh per fragment, named fragment_0000 and on, with a primitive for the model's own surface (material `outer`)
+// and one for the cut faces (`inner`). Positions are relative to the center of the model's box, which stands in every node's
+// translation, in double: a model far from the origin keeps its bits. extras: site (model space), cell, volume.
+#pragma once
+
+#include "engine/result.h"
+#include "modules/brittle/fracture/fragments.h"
+
+#include <string>
+
+namespace brittle {
+
+// The file's bytes: the same for the same fragments. Capacity where they exceed the 4 GiB that the format can hold.
+engine::Result<std::string> encodeGlb(const FragmentSet& fragments);
+
+} // namespace brittle

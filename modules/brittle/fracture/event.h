@@ -1,0 +1,42 @@
+// One fracture event while it is recorded: what breaks, in which frame, with which buffers. The stages are functions that
+// record kernels in the order of the pipeline; none waits for the device.
+#pragma once
+
+#include "modules/brittle/fracture/fracture.h"
+#include "modules/brittle/fracture/pools.h"
+#include "modules/brittle/fracture/recorder.h"
+
+namespace brittle {
+
+struct ScenePools {
+    engine::BufferView vertices, indices, draw_commands, objects, matrices, bounds, fragments;
+};
+
+struct Event {
+    const Mesh& mesh;
+    const FractureOptions& options;
+    const EventGrid& grid;
+    const TriangleColumns& columns;
+    const Capacities& capacity;
+    const EventBuffers& b;
+    const ScenePools& scene;
+    Recorder& record;
+};
+
+// place_sites, neighbor_grid
+void recordSites(const Event& e);
+// cut_cells
+void recordCells(const Event& e);
+// classify_triangles, clip_triangles
+void recordClassification(const Event& e);
+void recordClipping(const Event& e);
+// place_vertices, classify_cells, cap_faces
+void recordPlaces(const Event& e);
+void recordDepth(const Event& e);
+void recordCaps(const Event& e);
+// split_islands, mass_properties, allocate, emit
+void recordIslands(const Event& e);
+void recordMassProperties(const Event& e);
+void recordEmission(const Event& e);
+
+} // namespace brittle

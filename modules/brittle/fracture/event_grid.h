@@ -1,0 +1,50 @@
+// The integer frame of one fracture event: a 24-bit grid around mesh and sites, the box that cells start from, bins for the
+// neighbor search, and columns of triangles for the inside test.
+#pragma once
+
+#include "engine/result.h"
+#include "modules/brittle/mesh/mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace brittle {
+
+using Int3 = std::array<int32_t, 3>;
+using Int4 = std::array<int32_t, 4>;
+
+struct EventGrid {
+    float scale = 1;              // grid steps per model unit, a power of two: snapping rounds only once
+    float step = 1;               // its inverse
+    Int3 mesh_low{}, mesh_high{}; // of the mesh on the grid
+    Int3 box_low{}, box_high{};   // mesh and sites never touch it
+    Int4 bins{};                  // per axis; [3]: edge of a bin in grid steps
+    uint32_t binCount() const { return static_cast<uint32_t>(bins[0]) * static_cast<uint32_t>(bins[1]) * static_cast<uint32_t>(bins[2]); }
+};
+
+// Grid coordinates run from 0 to 2^24; the mesh's center lies at 2^23.
+constexpr int32_t kGridCenter = 1 << 23;
+// Nothing comes nearer to a wall of the box than this, so that no triangle is cut by one.
+constexpr int32_t kGridMargin = 8;
+
+// `sites` are relative to the mesh's center. Errors: BadInput where a site is not finite, or so far away that the mesh would
+// be left with too few grid steps.
+engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count);
+
+Int3 snapToGrid(const EventGrid& grid, const Double3& position);
+Double3 fromGrid(const EventGrid& grid, const Int3& position);
+
+// Triangles by the columns of an (x, y) raster that their boxes cover; the inside test looks along z in one column.
+struct TriangleColumns {
+    int32_t edge = 1;              // of a column, grid steps
+    int32_t per_row = 1;
+    std::vector<uint32_t> start;   // first entry of each column, and the end
+    std::vector<uint32_t> triangles;
+    std::vector<Int4> occupied;    // x and y index, lowest and highest z of its triangles
+};
+
+TriangleColumns makeColumns(const Mesh& mesh, const EventGrid& grid);
+
+} // namespace brittle

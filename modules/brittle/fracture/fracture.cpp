@@ -1,0 +1,186 @@
+#include "modules/brittle/fracture/fracture.h"
+
+#include "modules/brittle/fracture/event.h"
+#include "modules/brittle/fracture/readback.h"
+#include "modules/brittle/fracture/scene_buffers.h"
+#include "modules/brittle/fracture/upload.h"
+
+#include <chrono>
+
+namespace brittle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// An event that ran out of room says what it needs; each attempt can find out about one more pool.
+constexpr uint32_t kMaxAttempts = 12;
+
+struct Attempt {
+    FractureResult result;
+    std::vector<uint32_t> status;
+};
+
+class FractureDevice final : public Fracture {
+public:
+    explicit FractureDevice(engine::Device& device) : device_(device), kernels_(device) {}
+
+    engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options) override {
+        auto start = Clock::now();
+        auto prepared = prepare(mesh, options);
+        if (!prepared) return prepared.error();
+        uint32_t count = siteCount(options);
+        Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
+        for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
+            auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);
+            if (!outcome) return outcome.error();
+            if (!needsMore(outcome->status, capacity)) {
+                auto checked = checkStatus(outcome->status);
+                if (!checked) return checked.error();
+                outcome->result.setup_ms = millisecondsSince(start) - outcome->result.total_ms;
+                return std::move(outcome->result);
+            }
+        }
+        return engine::Error{engine::ErrorCode::Capacity, "the event's pools still overflow after " + std::to_string(kMaxAttempts) +
+                                                              " attempts; use fewer sites or a smaller mesh"};
+    }
+
+private:
+    struct Prepared {
+        EventGrid grid;
+        TriangleColumns columns;
+        std::vector<Double3> local_sites;
+    };
+
+    static uint32_t siteCount(const FractureOptions& options) {
+        return options.given_sites.empty() ? options.site_count : static_cast<uint32_t>(options.given_sites.size());
+    }
+
+    static engine::Result<Prepared> prepare(const Mesh& mesh, const FractureOptions& options) {
+        if (siteCount(options) == 0) return engine::Error{engine::ErrorCode::BadInput, "no sites: ask for at least one"};
+        if (mesh.triangles.empty()) return engine::Error{engine::ErrorCode::BadInput, "the mesh has no triangles"};
+        Prepared p;
+        for (Double3 s : options.given_sites) {
+            for (size_t k = 0; k < 3; k++) s[k] -= mesh.center[k];
+            p.local_sites.push_back(s);
+        }
+        auto grid = makeEventGrid(mesh, p.local_sites, siteCount(options));
+        if (!grid) return grid.error();
+        p.grid = *grid;
+        if (options.given_sites.empty()) p.columns = makeColumns(mesh, p.grid);
+        return p;
+    }
+
+    // Copies of the host's arrays live until the upload buffer is filled.
+    static void addMesh(Upload& upload, const Mesh& mesh, const MeshTopology& topology, std::vector<float>& attributes, const EventBuffers& b) {
+        attributes.reserve(5 * mesh.corner_normals.size());
+        for (size_t k = 0; k < mesh.corner_normals.size(); k++) {
+            attributes.insert(attributes.end(), mesh.corner_normals[k].begin(), mesh.corner_normals[k].end());
+            attributes.insert(attributes.end(), mesh.corner_uvs[k].begin(), mesh.corner_uvs[k].end());
+        }
+        upload.add(std::span(mesh.positions), b.mesh_positions);
+        upload.add(std::span(mesh.triangles), b.mesh_triangles);
+        upload.add(std::span(topology.triangle_edges), b.triangle_edges);
+        upload.add(std::span(topology.edges), b.mesh_edges);
+        upload.add(std::span(std::as_const(attributes)), b.corner_attributes);
+    }
+
+    static void addSites(Upload& upload, const Prepared& p, std::vector<Int3>& sites, std::vector<uint32_t>& placed, const EventBuffers& b) {
+        for (const Double3& s : p.local_sites) sites.push_back(snapToGrid(p.grid, s));
+        placed.assign(sites.size(), 1);
+        upload.add(std::span(std::as_const(sites)), b.raw_sites);
+        upload.add(std::span(std::as_const(placed)), b.placed);
+        upload.add(std::span(p.columns.start), b.column_start);
+        upload.add(std::span(p.columns.triangles), b.column_triangles);
+        upload.add(std::span(p.columns.occupied), b.columns);
+    }
+
+    static void clear(engine::Commands& commands, const EventBuffers& b) {
+        for (const engine::BufferView& view :
+             {b.counts, b.args, b.placed, b.raw_sites, b.site_table, b.bin_counts, b.bin_cursors, b.pair_table, b.round_bounds, b.triangle_polygons,
+              b.triangle_cursors, b.point_table, b.edge_triple_counts, b.edge_triple_cursors, b.edge_sums, b.face_counts, b.face_cursors,
+              b.edge_table})
+            commands.fill(view, 0);
+    }
+
+    static void recordAll(const Event& event) {
+        recordSites(event);
+        recordCells(event);
+        recordClassification(event);
+        recordClipping(event);
+        recordPlaces(event);
+        recordDepth(event);
+        recordCaps(event);
+        recordIslands(event);
+        recordMassProperties(event);
+        recordEmission(event);
+    }
+
+    engine::Result<engine::ScratchArena> makeArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b) {
+        auto plan = engine::ScratchArena::create(device_, 256, "plan");
+        if (!plan) return plan;
+        layOut(*plan, c, mesh, columns, b);
+        return engine::ScratchArena::create(device_, plan->peak(), "general buffer");
+    }
+
+    engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options, const Prepared& p,
+                                    const Capacities& capacity) {
+        EventBuffers b;
+        auto arena = makeArena(capacity, mesh, p.columns, b);
+        if (!arena) return arena.error();
+        layOut(*arena, capacity, mesh, p.columns, b);
+        if (auto ok = arena->status(); !ok) return ok.error();
+        auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
+        if (!scene) return scene.error();
+        engine::Commands commands(device_);
+        if (auto ok = commands.begin(); !ok) return ok.error();
+        Upload upload;
+        std::vector<float> attributes;
+        std::vector<Int3> sites;
+        std::vector<uint32_t> placed;
+        addMesh(upload, mesh, topology, attributes, b);
+        addSites(upload, p, sites, placed, b);
+        auto staging = upload.stage(device_);
+        if (!staging) return staging.error();
+        clear(commands, b);
+        upload.copy(commands, *staging);
+        Recorder recorder(commands, kernels_, b.counts, b.args);
+        recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder});
+        if (auto ok = recorder.status(); !ok) return ok.error();
+        auto start = Clock::now();
+        if (auto ok = commands.submitAndWait(); !ok) return ok.error();
+        Attempt attempt;
+        attempt.result.total_ms = millisecondsSince(start);
+        auto timings = commands.timings();
+        if (!timings) return timings.error();
+        attempt.result.timings = std::move(*timings);
+        auto read = readBack(device_, mesh, p.grid, options, b, scene->views(), attempt.result);
+        if (!read) return read.error();
+        attempt.status = std::move(*read);
+        return attempt;
+    }
+
+    static bool needsMore(const std::vector<uint32_t>& status, Capacities& capacity) {
+        if (status[STATUS_ROUNDS_LEFT] != 0) {
+            capacity.clip_rounds = capacity.clip_rounds * 2 + 8;
+            return true;
+        }
+        if ((status[STATUS_FAILED] & FAILED_CAPACITY) == 0) return false;
+        capacity.grow(status.data() + STATUS_NEEDED);
+        return true;
+    }
+
+    engine::Device& device_;
+    engine::KernelLibrary kernels_;
+};
+
+} // namespace
+
+engine::Result<std::unique_ptr<Fracture>> Fracture::create(engine::Device& device) {
+    return std::unique_ptr<Fracture>(std::make_unique<FractureDevice>(device));
+}
+
+} // namespace brittle

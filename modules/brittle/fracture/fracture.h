@@ -1,0 +1,46 @@
+// Shatters a closed mesh into closed fragments on the compute queue.
+#pragma once
+
+#include "engine/commands.h"
+#include "engine/device.h"
+#include "engine/kernel.h"
+#include "engine/result.h"
+#include "modules/brittle/fracture/fragments.h"
+#include "modules/brittle/mesh/mesh.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace brittle {
+
+struct FractureOptions {
+    uint32_t site_count = 100;         // asked of the pattern; ignored where sites are given
+    uint64_t seed = 1;
+    std::vector<Double3> given_sites;  // model space; empty: pattern `uniform`
+};
+
+struct FractureCounts {
+    uint32_t sites_requested = 0, sites_used = 0, sites_welded = 0;
+    uint32_t cells_ok = 0, cells_empty = 0, cells_merged = 0, cells_refused = 0;
+    uint32_t exact_total = 0, exact_redone = 0; // cells, and those done again by the exact kernel
+};
+
+struct FractureResult {
+    FragmentSet fragments;
+    FractureCounts counts;
+    std::vector<Double3> sites;             // used, in model space: what Fragment::cell points into
+    std::vector<engine::Timing> timings;    // one per stage, milliseconds on the device
+    double total_ms = 0;                    // of the recorded work, wall clock
+    double setup_ms = 0;                    // making pipelines and buffers
+};
+
+class Fracture {
+public:
+    static engine::Result<std::unique_ptr<Fracture>> create(engine::Device& device);
+    virtual ~Fracture() = default;
+    // Errors: BadInput (no sites, sites too far away), Capacity (names the pool and what it lacked), Device.
+    virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options) = 0;
+};
+
+} // namespace brittle

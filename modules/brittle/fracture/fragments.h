@@ -1,0 +1,39 @@
+// The outcome of one fracture event, read back from the scene buffers.
+#pragma once
+
+#include "modules/brittle/mesh/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace brittle {
+
+struct FragmentVertex {
+    float position[3]; // relative to FragmentSet::center
+    float normal[3];
+    float uv[2];
+};
+static_assert(sizeof(FragmentVertex) == 32);
+
+struct Fragment {
+    uint32_t cell = 0;              // index of its site among the sites used
+    uint32_t first_vertex = 0;      // added to every index, as vertexOffset of a draw command
+    uint32_t vertex_count = 0;
+    uint32_t first_index = 0;       // outer triangles first, inner ones after them
+    uint32_t outer_index_count = 0;
+    uint32_t inner_index_count = 0;
+    Double3 site = {0, 0, 0};       // model space
+    double volume = 0;
+    Double3 centroid = {0, 0, 0};   // relative to FragmentSet::center
+    Float3 lower = {0, 0, 0};       // bounds, relative to FragmentSet::center
+    Float3 upper = {0, 0, 0};
+};
+
+struct FragmentSet {
+    Double3 center = {0, 0, 0};
+    std::vector<FragmentVertex> vertices;
+    std::vector<uint32_t> indices; // relative to the fragment's first_vertex
+    std::vector<Fragment> fragments;
+};
+
+} // namespace brittle

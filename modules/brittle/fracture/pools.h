@@ -1,0 +1,64 @@
+// The buffers of one fracture event, and how much each may hold.
+//
+// Sizes that only the device finds out (how many crossings, polygons, caps...) are estimated from what the host knows. A
+// pool that turns out too small stops the event, which then says what it would have needed; the event is recorded again
+// with that.
+#pragma once
+
+#include "engine/arena.h"
+#include "modules/brittle/fracture/event_grid.h"
+#include "modules/brittle/mesh/mesh.h"
+#include "shaders-spirv/shared/fracture.h"
+
+#include <array>
+
+namespace brittle {
+
+struct Capacities {
+    uint32_t sites = 0, vertices = 0, edges = 0, triangles = 0, bins = 0; // exact
+    uint32_t neighbors = 0, corners = 0, voronoi_vertices = 0, voronoi_edges = 0;
+    uint32_t crossings = 0, pairs = 0, pair_table = 0, polygons = 0, sides = 0, triples = 0, fans = 0;
+    uint32_t intervals = 0, segments = 0, caps = 0, pieces = 0, components = 0, fragments = 0, emitted = 0;
+    uint32_t exact_medium = 0, exact_large = 0;
+    uint32_t clip_rounds = 0;
+
+    uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
+    uint32_t pointTable() const;
+    uint32_t edgeTable() const;
+    // Makes room for what a failed attempt found out that it needs; `needed` has one word a count.
+    void grow(const uint32_t* needed);
+};
+
+Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count);
+
+// Views into the scratch arena. Groups share memory where one is read for the last time before the other is first written.
+struct EventBuffers {
+    using View = engine::BufferView;
+    View counts, args, sums;
+    // mesh
+    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, corner_attributes, grid_vertices;
+    // sites
+    View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags, site_offsets;
+    View sites, bin_counts, bin_start, bin_cursors, bin_sites;
+    // cells
+    View raw, cell_raw, queue, store, cell_counts, cell_offsets, neighbors, corners, corner_info, vertex_sites, edge_sites, edge_ends;
+    View face_cells;
+    // classification and clipping
+    View owners, edge_flags, edge_slot, mixed_edges, crossing_counts, crossing_offsets, crossings;
+    View triangle_flags, triangle_slot, mixed_triangles, pairs, pair_table, pair_sides, pair_shape, round_bounds;
+    View triangle_polygons, triangle_polygon_offsets, triangle_cursors, loose_polygons, polygons, polygon_counts, polygon_offsets;
+    View polygon_sides, polygon_corners, triples, triple_signs;
+    // places
+    View points, positions, point_table, point_slots, welded;
+    // depth and caps
+    View triple_edges, edge_triple_counts, edge_triple_offsets, edge_triple_cursors, edge_sums, loose_triples, ordered_triples;
+    View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
+    View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_counts, cap_offsets, nodes, rings, loops;
+    // pieces
+    View pieces, sources, parents, edge_table, flags, flag_offsets, keys, values, other_keys, other_values, histogram, digit_offsets;
+    View components, component_start, records, fates, classes, class_offsets, demands, demand_offsets, shares;
+};
+
+void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b);
+
+} // namespace brittle

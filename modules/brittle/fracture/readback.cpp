@@ -1,0 +1,119 @@
+#include "modules/brittle/fracture/readback.h"
+
+#include "shaders-spirv/shared/fragment_record.h"
+
+#include <cstring>
+
+namespace brittle {
+namespace {
+
+struct Piece {
+    engine::BufferView source;
+    void* target;
+    size_t bytes;
+};
+
+engine::Result<void> fetch(engine::Device& device, std::span<const Piece> pieces) {
+    VkDeviceSize total = 16;
+    for (const Piece& p : pieces) total += (p.bytes + 15) / 16 * 16;
+    auto buffer = engine::Buffer::create(device, total, engine::BufferDomain::Readback, 0, "readback");
+    if (!buffer) return buffer.error();
+    engine::Commands commands(device);
+    if (auto ok = commands.begin(); !ok) return ok;
+    VkDeviceSize at = 0;
+    for (const Piece& p : pieces) {
+        if (p.bytes != 0) commands.copy(p.source.sub(0, p.bytes), engine::BufferView(*buffer).sub(at, p.bytes));
+        at += (p.bytes + 15) / 16 * 16;
+    }
+    if (auto ok = commands.submitAndWait(); !ok) return ok;
+    at = 0;
+    for (const Piece& p : pieces) {
+        if (p.bytes != 0) std::memcpy(p.target, buffer->mapped() + at, p.bytes);
+        at += (p.bytes + 15) / 16 * 16;
+    }
+    return {};
+}
+
+Fragment fragmentOf(const FragmentRecord& record, const std::vector<Double3>& sites) {
+    Fragment f;
+    f.cell = record.fate[2];
+    f.first_vertex = 3 * record.range[1];
+    f.vertex_count = 3 * (record.range[2] + record.range[3]);
+    f.first_index = f.first_vertex;
+    f.outer_index_count = 3 * record.range[2];
+    f.inner_index_count = 3 * record.range[3];
+    f.site = f.cell < sites.size() ? sites[f.cell] : Double3{};
+    f.volume = static_cast<double>(record.measure[0]);
+    for (size_t k = 0; k < 3; k++) {
+        f.centroid[k] = static_cast<double>(record.balance[k]);
+        f.lower[k] = record.low[k];
+        f.upper[k] = record.high[k];
+    }
+    return f;
+}
+
+void fillCounts(const std::vector<uint32_t>& status, const FractureOptions& options, FractureResult& result) {
+    FractureCounts& c = result.counts;
+    c.sites_requested = options.given_sites.empty() ? options.site_count : static_cast<uint32_t>(options.given_sites.size());
+    c.sites_used = status[COUNT_SITES];
+    c.sites_welded = status[STATUS_WELDED];
+    c.cells_merged = status[STATUS_DISSOLVED];
+    c.cells_refused = status[STATUS_BAD_CELLS];
+    c.exact_total = status[COUNT_SITES];
+    c.exact_redone = status[COUNT_EXACT_MEDIUM] + status[COUNT_EXACT_LARGE];
+    std::vector<bool> filled(c.sites_used, false);
+    for (const Fragment& f : result.fragments.fragments)
+        if (f.cell < filled.size()) filled[f.cell] = true;
+    for (bool some : filled) (some ? c.cells_ok : c.cells_empty)++;
+}
+
+} // namespace
+
+engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mesh& mesh, const EventGrid& grid, const FractureOptions& options,
+                                               const EventBuffers& b, const ScenePools& scene, FractureResult& result) {
+    std::vector<uint32_t> status(STATUS_WORDS);
+    const Piece first[] = {{b.counts, status.data(), 4ull * STATUS_WORDS}};
+    if (auto ok = fetch(device, first); !ok) return ok.error();
+    if (status[STATUS_FAILED] != 0) return status;
+    std::vector<Int4> sites(status[COUNT_SITES]);
+    std::vector<FragmentRecord> records(status[COUNT_FRAGMENTS]);
+    FragmentSet& set = result.fragments;
+    set.center = mesh.center;
+    set.vertices.resize(3ull * status[COUNT_EMITTED]);
+    set.indices.resize(3ull * status[COUNT_EMITTED]);
+    const Piece rest[] = {{b.sites, sites.data(), 16 * sites.size()},
+                          {scene.fragments, records.data(), sizeof(FragmentRecord) * records.size()},
+                          {scene.vertices, set.vertices.data(), sizeof(FragmentVertex) * set.vertices.size()},
+                          {scene.indices, set.indices.data(), 4 * set.indices.size()}};
+    if (auto ok = fetch(device, rest); !ok) return ok.error();
+    for (const Int4& s : sites) {
+        Double3 p = fromGrid(grid, {s[0], s[1], s[2]});
+        for (size_t k = 0; k < 3; k++) p[k] += mesh.center[k];
+        result.sites.push_back(p);
+    }
+    for (const FragmentRecord& record : records) set.fragments.push_back(fragmentOf(record, result.sites));
+    fillCounts(status, options, result);
+    return status;
+}
+
+engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
+    auto failed = [](const std::string& what) { return engine::Error{engine::ErrorCode::Internal, what}; };
+    auto number = [&](uint32_t k) { return std::to_string(s[k]); };
+    if (s[STATUS_UNPLACED] != 0)
+        return engine::Error{engine::ErrorCode::BadInput, number(STATUS_UNPLACED) + " sites found no place inside the model, which fills too little "
+                                                                                    "of its box; give the sites with --sites-file"};
+    if (s[STATUS_BAD_CELLS] != 0)
+        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CELLS) + " cells have more than 2048 faces; spread the sites"};
+    if (s[STATUS_BAD_CAP] != 0)
+        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CAP) + " cut faces have more than " + std::to_string(HUGE_FACE) +
+                                                              " edges or too many loops; use more sites or a coarser mesh"};
+    if (s[STATUS_BAD_CLIP] != 0) return failed(number(STATUS_BAD_CLIP) + " triangles could not be clipped");
+    if (s[STATUS_BAD_LOOKUP] != 0) return failed(number(STATUS_BAD_LOOKUP) + " look-ups in the diagram failed");
+    if (s[STATUS_BAD_DEPTH] != 0)
+        return failed(number(STATUS_BAD_DEPTH) + " Voronoi edges disagree with the surface; is the mesh closed and free of self-intersections?");
+    if (s[STATUS_BAD_UNION] != 0 || s[STATUS_BAD_WELD] != 0) return failed("pieces could not be joined");
+    if (s[STATUS_FAILED] != 0) return failed("the event failed without saying why");
+    return {};
+}
+
+} // namespace brittle

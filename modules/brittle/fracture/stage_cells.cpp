@@ -1,0 +1,61 @@
+// Cells: cut from the box by integers alone, larger ones again with more room, then packed and linked into a diagram.
+#include "modules/brittle/fracture/event.h"
+
+namespace brittle {
+namespace {
+
+struct CutPush {
+    Int4 bins, box_low, box_high;
+    uint32_t cell_count, size_class, raw_base, next_capacity;
+};
+
+CutPush cutPush(const Event& e, uint32_t size_class) {
+    const EventGrid& g = e.grid;
+    const Capacities& c = e.capacity;
+    const uint32_t queue[4] = {0, c.sites, c.sites + c.exact_medium, c.sites + c.exact_medium + c.exact_large};
+    const uint32_t raw_medium = c.sites * RAW_WORDS, raw_large = raw_medium + c.exact_medium * (2 + 256 + 2 * 512);
+    const uint32_t base[3] = {0, raw_medium, raw_large}, next[3] = {c.exact_medium, c.exact_large, 0};
+    return {g.bins,
+            {g.box_low[0], g.box_low[1], g.box_low[2], static_cast<int32_t>(queue[size_class])},
+            {g.box_high[0], g.box_high[1], g.box_high[2], static_cast<int32_t>(queue[size_class + 1])},
+            size_class == 0 ? c.sites : NO_INDEX,
+            size_class,
+            base[size_class],
+            next[size_class]};
+}
+
+void recordCutting(const Event& e) {
+    const auto& b = e.b;
+    e.record.runGroups("cut_cells_exact", e.capacity.sites, cutPush(e, 0),
+                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
+    e.record.publish(COUNT_EXACT_MEDIUM, e.capacity.exact_medium);
+    e.record.runGroups("cut_cells_exact_medium", e.record.groupsOf(COUNT_EXACT_MEDIUM), cutPush(e, 1),
+                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
+    e.record.publish(COUNT_EXACT_LARGE, e.capacity.exact_large);
+}
+
+void recordPacking(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    e.record.run("count_cells", Length::of(c.sites), c.sites, {e.record.counts(), b.cell_raw, b.raw, b.cell_counts});
+    e.record.scan(Length::of(c.sites), b.cell_counts, b.sums, b.cell_offsets,
+                  {{COUNT_NEIGHBORS, COUNT_CORNERS, COUNT_VORONOI_VERTICES, COUNT_VORONOI_EDGES},
+                   {c.neighbors, c.corners, c.voronoi_vertices, c.voronoi_edges}},
+                  true);
+    e.record.run("gather_cells", Length::of(c.sites), c.sites,
+                 {e.record.counts(), b.cell_raw, b.raw, b.cell_offsets, b.neighbors, b.corners, b.corner_info, b.vertex_sites});
+    e.record.run("list_face_cells", Length::of(c.sites), engine::NoPush{}, {e.record.counts(), b.cell_offsets, b.face_cells});
+    e.record.run("link_edges", Length::counted(COUNT_CORNERS), engine::NoPush{},
+                 {e.record.counts(), b.cell_offsets, b.corners, b.corner_info, b.edge_sites, b.edge_ends});
+}
+
+} // namespace
+
+void recordCells(const Event& e) {
+    e.record.commands().beginLabel("cut_cells");
+    recordCutting(e);
+    recordPacking(e);
+    e.record.commands().endLabel();
+}
+
+} // namespace brittle

@@ -1,0 +1,110 @@
+// Triangles: owners of their corners, crossings of their edges, and the polygons that mixed ones leave in each cell.
+#include "modules/brittle/fracture/event.h"
+
+namespace brittle {
+namespace {
+
+constexpr uint32_t kCount = 0, kFill = 1;
+
+void recordOwners(const Event& e) {
+    const auto& b = e.b;
+    const EventGrid& g = e.grid;
+    struct Push {
+        Int4 bins, low;
+        uint32_t length;
+    } push = {g.bins, {g.box_low[0], g.box_low[1], g.box_low[2], 0}, e.capacity.vertices};
+    struct Bytes {
+        int32_t bins[4], low[4];
+        uint32_t length;
+    };
+    static_assert(sizeof(Push) == 36 && sizeof(Bytes) == 36);
+    e.record.run("own_vertices", Length::of(e.capacity.vertices), push,
+                 {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.owners});
+}
+
+void recordCrossings(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    e.record.run("flag_edges", Length::of(c.edges), c.edges, {b.mesh_edges, b.owners, b.edge_flags});
+    e.record.scan(Length::of(c.edges), b.edge_flags, b.sums, b.edge_slot, {{COUNT_MIXED_EDGES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.edges, 0, 0, 0}});
+    e.record.compact(Length::of(c.edges), b.edge_slot, b.mixed_edges);
+    for (uint32_t pass : {kCount, kFill}) {
+        e.record.run("cross_edges", Length::counted(COUNT_MIXED_EDGES), engine::NoPush{},
+                     {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_edges, b.owners, b.mixed_edges,
+                      b.crossing_counts, b.crossing_offsets, b.crossings},
+                     pass);
+        if (pass == kCount)
+            e.record.scan(Length::counted(COUNT_MIXED_EDGES), b.crossing_counts, b.sums, b.crossing_offsets,
+                          {{COUNT_CROSSINGS, NO_INDEX, NO_INDEX, NO_INDEX}, {c.crossings, 0, 0, 0}});
+    }
+}
+
+void recordMixedTriangles(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    e.record.run("classify_triangles", Length::of(c.triangles), c.triangles,
+                 {b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot, b.triangle_flags});
+    e.record.scan(Length::of(c.triangles), b.triangle_flags, b.sums, b.triangle_slot,
+                  {{COUNT_MIXED_TRIANGLES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.triangles, 0, 0, 0}});
+    e.record.compact(Length::of(c.triangles), b.triangle_slot, b.mixed_triangles);
+}
+
+struct PairPush {
+    uint32_t capacity, table_mask;
+};
+
+void recordPairs(const Event& e) {
+    const auto& b = e.b;
+    PairPush push = {e.capacity.pairs, static_cast<uint32_t>(b.pair_table.size / 8) - 1};
+    e.record.run("seed_pairs", Length::counted(COUNT_MIXED_TRIANGLES), push,
+                 {e.record.counts(), b.mixed_triangles, b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot, b.crossing_offsets,
+                  b.crossings, b.pairs, b.pair_table});
+    for (uint32_t round = 0; round <= e.capacity.clip_rounds; round++) {
+        struct RoundPush {
+            uint32_t capacity, is_last;
+        } next = {e.capacity.pairs, round == e.capacity.clip_rounds ? 1u : 0u};
+        e.record.runGroups("next_round", 1, next, {e.record.counts(), e.record.args(), b.round_bounds});
+        if (next.is_last != 0) break;
+        e.record.run("clip_triangles", Length::counted(COUNT_ROUND), push,
+                     {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_triangles, b.mixed_triangles,
+                      b.round_bounds, b.pairs, b.pair_table, b.pair_sides, b.pair_shape, b.triangle_polygons});
+    }
+}
+
+void recordPolygons(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    e.record.scan(Length::counted(COUNT_MIXED_TRIANGLES), b.triangle_polygons, b.sums, b.triangle_polygon_offsets,
+                  {{COUNT_POLYGONS, NO_INDEX, NO_INDEX, NO_INDEX}, {c.polygons, 0, 0, 0}});
+    e.record.run("place_polygons", Length::counted(COUNT_PAIRS), engine::NoPush{},
+                 {e.record.counts(), b.pairs, b.pair_shape, b.triangle_polygon_offsets, b.triangle_cursors, b.loose_polygons});
+    e.record.run("order_polygons", Length::counted(COUNT_POLYGONS), engine::NoPush{},
+                 {e.record.counts(), b.pairs, b.pair_shape, b.pair_sides, b.triangle_polygon_offsets, b.loose_polygons, b.mixed_triangles,
+                  b.polygons, b.polygon_counts});
+    e.record.scan(Length::counted(COUNT_POLYGONS), b.polygon_counts, b.sums, b.polygon_offsets,
+                  {{COUNT_SIDES, COUNT_TRIPLES, NO_INDEX, COUNT_FAN_TRIANGLES}, {c.sides, c.triples, NO_INDEX, c.fans}}, true);
+    e.record.run("list_triples", Length::counted(COUNT_POLYGONS), engine::NoPush{},
+                 {e.record.counts(), b.polygons, b.polygon_offsets, b.pair_sides, b.polygon_sides, b.triples, b.triple_signs});
+    e.record.run("number_corners", Length::counted(COUNT_POLYGONS), c.vertices,
+                 {e.record.counts(), b.polygons, b.polygon_offsets, b.polygon_sides, b.mesh_triangles, b.triangle_edges, b.edge_slot,
+                  b.crossing_offsets, b.crossings, b.triangle_slot, b.triangle_polygon_offsets, b.triples, b.polygon_corners});
+}
+
+} // namespace
+
+void recordClassification(const Event& e) {
+    e.record.commands().beginLabel("classify_triangles");
+    recordOwners(e);
+    recordCrossings(e);
+    recordMixedTriangles(e);
+    e.record.commands().endLabel();
+}
+
+void recordClipping(const Event& e) {
+    e.record.commands().beginLabel("clip_triangles");
+    recordPairs(e);
+    recordPolygons(e);
+    e.record.commands().endLabel();
+}
+
+} // namespace brittle

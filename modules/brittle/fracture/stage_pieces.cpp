@@ -1,0 +1,100 @@
+// Pieces: surface and caps split into islands, measured, given room in the scene's pools, and written there.
+#include "modules/brittle/fracture/event.h"
+
+#include <bit>
+
+namespace brittle {
+namespace {
+
+void recordPieces(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    Recorder& r = e.record;
+    r.run("list_whole", Length::of(c.triangles), c.triangles,
+          {r.counts(), b.mesh_triangles, b.owners, b.triangle_slot, b.welded, b.pieces, b.sources, b.parents});
+    r.run("list_fans", Length::counted(COUNT_POLYGONS), c.triangles,
+          {r.counts(), b.polygons, b.polygon_offsets, b.polygon_corners, b.welded, b.pieces, b.sources, b.parents});
+    r.run("list_caps", Length::counted(COUNT_FACES), c.triangles,
+          {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources, b.parents});
+    struct SumPush {
+        uint32_t count, capacity, constant, pad, terms[4], weights[4];
+    } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX}, {1, 2, 0, 0}};
+    r.runGroups("publish_sum", 1, total, {r.counts(), r.args()});
+}
+
+// Stable, by component; the number of passes follows from the most components that the pool admits.
+void recordSorting(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    uint32_t bits = static_cast<uint32_t>(std::bit_width(e.capacity.components));
+    uint32_t passes = (bits + RADIX_BITS - 1) / RADIX_BITS;
+    passes += passes % 2; // so that the outcome lies where it began
+    const engine::BufferView* keys[2] = {&b.keys, &b.other_keys};
+    const engine::BufferView* values[2] = {&b.values, &b.other_values};
+    r.runGroups("publish_tiles", 1, uint32_t{COUNT_VALID}, {r.counts(), r.args()});
+    for (uint32_t pass = 0; pass < passes; pass++) {
+        struct Push {
+            uint32_t length_count, shift;
+        } push = {COUNT_VALID, pass * RADIX_BITS};
+        uint32_t from = pass % 2, to = 1 - from;
+        r.runGroups("radix_count", r.blocksOf(COUNT_VALID), push, {r.counts(), *keys[from], b.histogram});
+        r.scan(Length::counted(COUNT_RADIX), b.histogram, b.sums, b.digit_offsets, {});
+        r.runGroups("radix_scatter", r.blocksOf(COUNT_VALID), push,
+                    {r.counts(), *keys[from], *values[from], b.digit_offsets, *keys[to], *values[to]});
+    }
+}
+
+} // namespace
+
+void recordIslands(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    Recorder& r = e.record;
+    r.commands().beginLabel("split_islands");
+    recordPieces(e);
+    uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
+    r.run("unite_triangles", Length::counted(COUNT_TRIANGLES), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
+    r.run("flag_components", Length::counted(COUNT_TRIANGLES), engine::NoPush{}, {r.counts(), b.pieces, b.parents, b.flags});
+    r.scan(Length::counted(COUNT_TRIANGLES), b.flags, b.sums, b.flag_offsets,
+           {{COUNT_VALID, COUNT_COMPONENTS, NO_INDEX, NO_INDEX}, {c.pieces, c.components, 0, 0}}, true);
+    r.run("key_triangles", Length::counted(COUNT_TRIANGLES), engine::NoPush{},
+          {r.counts(), b.flag_offsets, b.parents, b.keys, b.values, b.components});
+    recordSorting(e);
+    r.run("bound_components", Length::counted(COUNT_VALID), engine::NoPush{}, {r.counts(), b.keys, b.component_start});
+    r.commands().endLabel();
+}
+
+void recordMassProperties(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    r.commands().beginLabel("mass_properties");
+    r.runGroups("mass_properties", r.groupsOf(COUNT_COMPONENTS), engine::NoPush{},
+                {r.counts(), b.component_start, b.values, b.pieces, b.sources, b.positions, b.records});
+    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), e.grid.step,
+          {r.counts(), b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
+    r.commands().endLabel();
+}
+
+void recordEmission(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    Recorder& r = e.record;
+    r.commands().beginLabel("allocate");
+    r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles, {r.counts(), b.values, b.sources, b.components, b.fates, b.classes});
+    r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
+    r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
+          {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares});
+    r.scan(Length::counted(COUNT_COMPONENTS), b.demands, b.sums, b.demand_offsets,
+           {{COUNT_FRAGMENTS, COUNT_EMITTED, NO_INDEX, NO_INDEX}, {c.fragments, c.emitted, 0, 0}}, true);
+    r.commands().endLabel();
+    r.commands().beginLabel("emit");
+    r.run("emit", Length::counted(COUNT_VALID), engine::NoPush{},
+          {r.counts(), b.values, b.components, b.pieces, b.sources, b.positions, b.class_offsets, b.component_start, b.shares,
+           b.demand_offsets, b.fates, b.mesh_positions, b.mesh_triangles, b.corner_attributes, e.scene.vertices, e.scene.indices});
+    r.run("emit_objects", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
+          {r.counts(), b.records, b.fates, b.demand_offsets, b.shares, e.scene.draw_commands, e.scene.bounds, e.scene.fragments,
+           e.scene.matrices, e.scene.objects});
+    r.commands().endLabel();
+}
+
+} // namespace brittle

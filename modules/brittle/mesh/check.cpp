@@ -1,0 +1,159 @@
+#include "modules/brittle/mesh/check.h"
+
+#include "modules/brittle/mesh/components.h"
+#include "modules/brittle/mesh/format.h"
+#include "modules/brittle/mesh/measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brittle {
+namespace {
+
+// A plate as thin as this share of its size has no inside on a grid of 24 bits.
+constexpr double kMinThickness = 1e-7;
+
+class Inspector {
+public:
+    Inspector(const Mesh& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
+    MeshReport run();
+
+private:
+    void countEdges();
+    void countTriangles();
+    void checkVolume();
+    void checkCrossings(const TriangleTree& tree);
+    void checkNesting(const TriangleTree& tree);
+    void complain(uint64_t count, const std::string& what, const Double3& where, const std::string& advice);
+    Double3 midpoint(uint32_t edge) const;
+    Double3 midpointOf(uint32_t triangle) const;
+
+    const Mesh& mesh_;
+    const MeshTopology& topology_;
+    MeshReport report_;
+};
+
+MeshReport Inspector::run() {
+    report_.vertices = static_cast<uint32_t>(mesh_.positions.size());
+    report_.triangles = static_cast<uint32_t>(mesh_.triangles.size());
+    if (mesh_.triangles.empty()) {
+        report_.problems.emplace_back("no triangles");
+        return report_;
+    }
+    report_.measures = measureMesh(mesh_);
+    countEdges();
+    countTriangles();
+    const bool has_surface = report_.isSound();
+    const TriangleTree tree(mesh_);
+    checkCrossings(tree);
+    for (const Component& component : findComponents(mesh_, topology_)) {
+        ++report_.components;
+        report_.cavities += component.volume < 0 ? 1 : 0;
+    }
+    if (!has_surface) return report_; // what is not closed has no volume
+    checkVolume();
+    checkNesting(tree);
+    return report_;
+}
+
+void Inspector::complain(uint64_t count, const std::string& what, const Double3& where, const std::string& advice) {
+    if (count == 0) return;
+    report_.problems.push_back(formatCount(count, what) + ", first at " + formatPoint(mesh_.center + where) + "; " + advice);
+}
+
+Double3 Inspector::midpoint(uint32_t edge) const {
+    const auto& [a, b] = topology_.edges[edge];
+    return 0.5 * (toDouble(mesh_.positions[a]) + toDouble(mesh_.positions[b]));
+}
+
+Double3 Inspector::midpointOf(uint32_t triangle) const {
+    Double3 sum = {0, 0, 0};
+    for (const uint32_t v : mesh_.triangles[triangle])
+        sum += toDouble(mesh_.positions[v]);
+    return (1.0 / 3) * sum;
+}
+
+// An edge is sound when as many triangles run along it one way as the other.
+void Inspector::countEdges() {
+    struct Uses {
+        uint32_t up = 0, down = 0;
+    };
+    std::vector<Uses> uses(topology_.edges.size());
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const bool runs_up = mesh_.triangles[t][k] < mesh_.triangles[t][(k + 1) % 3];
+            ++(runs_up ? uses[topology_.triangle_edges[t][k]].up : uses[topology_.triangle_edges[t][k]].down);
+        }
+    std::array<Double3, 3> first = {};
+    const auto note = [&](uint32_t& count, size_t kind, size_t edge) {
+        if (count++ == 0) first[kind] = midpoint(static_cast<uint32_t>(edge));
+    };
+    for (size_t e = 0; e < uses.size(); ++e) {
+        const uint32_t total = uses[e].up + uses[e].down;
+        if (uses[e].up == uses[e].down) report_.shared_edges += total > 2 ? 1 : 0;
+        else if (total == 1) note(report_.open_edges, 0, e);
+        else if (total == 2) note(report_.inconsistent_edges, 1, e);
+        else note(report_.nonmanifold_edges, 2, e);
+    }
+    complain(report_.open_edges, "open edge", first[0], "close the holes of the surface");
+    complain(report_.inconsistent_edges, "edge", first[1], "where the surface turns over; make its faces point outward");
+    complain(report_.nonmanifold_edges, "edge", first[2], "where triangles do not pair up; remove inner or doubled faces");
+}
+
+void Inspector::countTriangles() {
+    std::vector<std::pair<Index3, uint32_t>> sorted;
+    sorted.reserve(mesh_.triangles.size());
+    for (uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        Index3 corners = mesh_.triangles[t];
+        const Double3 a = toDouble(mesh_.positions[corners[0]]), b = toDouble(mesh_.positions[corners[1]]),
+                      c = toDouble(mesh_.positions[corners[2]]);
+        const double longest = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+        report_.flat_triangles += length(cross(b - a, c - a)) <= 1e-12 * longest ? 1 : 0;
+        std::sort(corners.begin(), corners.end());
+        sorted.emplace_back(corners, t);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    uint32_t first = 0;
+    for (size_t k = 1; k < sorted.size(); ++k)
+        if (sorted[k].first == sorted[k - 1].first && report_.duplicate_triangles++ == 0) first = sorted[k].second;
+    complain(report_.duplicate_triangles, "doubled triangle", midpointOf(first), "remove doubled faces, or give the sheet a thickness");
+}
+
+void Inspector::checkVolume() {
+    const MeshMeasures& m = report_.measures;
+    if (m.volume > kMinThickness * m.area * m.diagonal) return;
+    report_.problems.push_back("a volume of " + formatNumber(m.volume) + ": the model is flat; give it a thickness");
+}
+
+void Inspector::checkCrossings(const TriangleTree& tree) {
+    report_.self_intersection = findSelfIntersections(mesh_, tree, report_.measures.diagonal);
+    const SelfIntersection& found = report_.self_intersection;
+    if (found.crossing_pairs == 0) return;
+    const std::string more = found.crossing_pairs >= kMaxCrossings ? "more than " : "";
+    report_.problems.push_back(more + formatCount(found.crossing_pairs, "pair") + " of triangles that cross, " +
+                               formatNumber(found.deepest.depth) + " deep at " +
+                               formatPoint(mesh_.center + found.deepest.where) +
+                               "; unite the overlapping parts (boolean union) or move them apart");
+}
+
+void Inspector::checkNesting(const TriangleTree& tree) {
+    Double3 first = {0, 0, 0};
+    for (const Component& component : findComponents(mesh_, topology_)) {
+        if (windingBelow(mesh_, tree, component.largest_triangle, report_.measures.diagonal) == 1) continue;
+        if (report_.misplaced_components++ == 0) first = midpointOf(component.largest_triangle);
+    }
+    complain(report_.misplaced_components, "part", first,
+             "inside another part or inside out; unite the parts, or turn the walls of hollows inward");
+}
+
+} // namespace
+
+MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology) { return Inspector(mesh, topology).run(); }
+
+engine::Result<MeshReport> checkMesh(const Mesh& mesh, const MeshTopology& topology) {
+    MeshReport report = inspectMesh(mesh, topology);
+    if (!report.isSound()) return engine::Error{engine::ErrorCode::BadInput, report.problems.front()};
+    return report;
+}
+
+} // namespace brittle

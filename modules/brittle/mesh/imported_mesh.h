@@ -1,0 +1,45 @@
+// What a file holds, before it is anything to break: polygons cut into triangles, positions in double.
+#pragma once
+
+#include "modules/brittle/mesh/mesh.h"
+
+#include <span>
+
+namespace brittle {
+
+struct ImportedMesh {
+    std::vector<Double3> positions; // as the file has them, also those that no triangle uses
+    std::vector<Index3> triangles;
+    std::vector<Float3> corner_normals; // three per triangle; zero where the file has none
+    std::vector<Float2> corner_uvs;     // three per triangle; zero where the file has none
+};
+
+struct PolygonCorner {
+    uint32_t position = 0;
+    Float3 normal = {0, 0, 0};
+    Float2 uv = {0, 0};
+};
+
+// Collects the polygons of a file. Polygons with more corners than this are refused: ear clipping takes their square.
+constexpr size_t kMaxPolygonCorners = 10'000;
+
+class MeshBuilder {
+public:
+    void addVertex(const Double3& position) { mesh_.positions.push_back(position); }
+    size_t vertexCount() const { return mesh_.positions.size(); }
+    size_t triangleCount() const { return mesh_.triangles.size(); }
+
+    // The corners' positions must be there already. Says what is wrong with the polygon, nullptr where nothing is.
+    // Corners that repeat the one before are skipped; what then has fewer than three is no polygon and adds nothing.
+    const char* addPolygon(std::span<const PolygonCorner> corners);
+    ImportedMesh take() { return std::move(mesh_); }
+
+private:
+    void addTriangle(const PolygonCorner& a, const PolygonCorner& b, const PolygonCorner& c);
+
+    ImportedMesh mesh_;
+    std::vector<PolygonCorner> corners_; // of the current polygon
+    std::vector<Double3> outline_;
+};
+
+} // namespace brittle

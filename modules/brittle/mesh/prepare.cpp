@@ -1,0 +1,179 @@
+#include "modules/brittle/mesh/prepare.h"
+
+#include "modules/brittle/mesh/format.h"
+#include "modules/brittle/mesh/measures.h"
+#include "modules/brittle/mesh/normals.h"
+#include "modules/brittle/mesh/topology.h"
+#include "modules/brittle/mesh/vector_math.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+namespace brittle {
+namespace {
+
+// Fourth powers of lengths have to fit into floats: kernels multiply areas by areas.
+constexpr double kMinDiagonal = 1e-9, kMaxDiagonal = 1e9;
+
+engine::Error badMesh(std::string message) { return {engine::ErrorCode::BadInput, std::move(message)}; }
+
+// Open addressing over bit patterns; -0 and 0 are one.
+class Welder {
+public:
+    explicit Welder(size_t expected) : slots_(std::bit_ceil(2 * expected + 2), kEmpty) {}
+
+    uint32_t indexOf(Float3 p, std::vector<Float3>& positions) {
+        for (float& x : p)
+            x += 0.0f; // turns -0 into 0
+        for (size_t slot = hash(p);; ++slot) {
+            uint32_t& entry = slots_[slot & (slots_.size() - 1)];
+            if (entry == kEmpty) {
+                entry = static_cast<uint32_t>(positions.size());
+                positions.push_back(p);
+            }
+            if (positions[entry] == p) return entry;
+        }
+    }
+
+private:
+    static constexpr uint32_t kEmpty = 0xffffffff;
+    static size_t hash(const Float3& p) {
+        uint64_t h = 0;
+        for (const float x : p) {
+            h = (h ^ std::bit_cast<uint32_t>(x)) * 0x9E3779B97F4A7C15u;
+            h ^= h >> 29;
+        }
+        return h;
+    }
+    std::vector<uint32_t> slots_;
+};
+
+std::vector<char> usedVertices(const ImportedMesh& imported) {
+    std::vector<char> used(imported.positions.size(), 0);
+    for (const Index3& t : imported.triangles)
+        for (const uint32_t v : t)
+            used[v] = 1;
+    return used;
+}
+
+engine::Result<Box> boxOfUsed(const ImportedMesh& imported, const std::vector<char>& used) {
+    Box box;
+    for (size_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        if (!isFinite(imported.positions[v]))
+            return badMesh("vertex " + std::to_string(v) + ": a coordinate is not a finite number; remove that vertex");
+        box.grow(imported.positions[v]);
+    }
+    const double diagonal = box.diagonal();
+    if (!(diagonal >= kMinDiagonal && diagonal <= kMaxDiagonal))
+        return badMesh("the model is " + formatNumber(diagonal) + " units large; scale it to between 1e-9 and 1e9");
+    return box;
+}
+
+// Vertex of the file -> vertex of the mesh.
+std::vector<uint32_t> weld(const ImportedMesh& imported, const std::vector<char>& used, Mesh& mesh, PrepareNotes& notes) {
+    std::vector<uint32_t> index(used.size(), 0);
+    Welder welder(used.size());
+    uint32_t kept = 0;
+    for (size_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        ++kept;
+        index[v] = welder.indexOf(toFloat(imported.positions[v] - mesh.center), mesh.positions);
+    }
+    notes.vertices_in = static_cast<uint32_t>(used.size());
+    notes.unused = notes.vertices_in - kept;
+    notes.welded = kept - static_cast<uint32_t>(mesh.positions.size());
+    return index;
+}
+
+void addTriangles(const ImportedMesh& imported, const std::vector<uint32_t>& index, Mesh& mesh, PrepareNotes& notes) {
+    for (size_t t = 0; t < imported.triangles.size(); ++t) {
+        const Index3& from = imported.triangles[t];
+        const Index3 triangle = {index[from[0]], index[from[1]], index[from[2]]};
+        if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
+            ++notes.collapsed;
+            continue;
+        }
+        mesh.triangles.push_back(triangle);
+        for (size_t k = 0; k < 3; ++k) {
+            mesh.corner_normals.push_back(imported.corner_normals[3 * t + k]);
+            mesh.corner_uvs.push_back(imported.corner_uvs[3 * t + k]);
+        }
+    }
+}
+
+// Vertices of which every triangle has collapsed must not count either.
+void dropUnusedPositions(Mesh& mesh) {
+    constexpr uint32_t kUnused = 0xffffffff;
+    std::vector<uint32_t> index(mesh.positions.size(), kUnused);
+    for (const Index3& t : mesh.triangles)
+        for (const uint32_t v : t)
+            index[v] = 0;
+    uint32_t kept = 0;
+    for (size_t v = 0; v < index.size(); ++v) {
+        if (index[v] == kUnused) continue;
+        mesh.positions[kept] = mesh.positions[v];
+        index[v] = kept++;
+    }
+    mesh.positions.resize(kept);
+    for (Index3& t : mesh.triangles)
+        for (uint32_t& v : t)
+            v = index[v];
+}
+
+// Reversed triangles for a mesh whose volume is negative: the solid is then what the surface encloses.
+void turnInsideOut(Mesh& mesh) {
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+        std::swap(mesh.corner_normals[3 * t + 1], mesh.corner_normals[3 * t + 2]);
+        std::swap(mesh.corner_uvs[3 * t + 1], mesh.corner_uvs[3 * t + 2]);
+    }
+}
+
+// Normals of the file may point inward although the triangles do not, or were turned.
+void pointNormalsOutward(Mesh& mesh) {
+    double agreement = 0;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Index3& i = mesh.triangles[t];
+        const Double3 a = toDouble(mesh.positions[i[0]]);
+        const Double3 across = cross(toDouble(mesh.positions[i[1]]) - a, toDouble(mesh.positions[i[2]]) - a);
+        for (size_t k = 0; k < 3; ++k) {
+            const double along = dot(across, normalized(toDouble(mesh.corner_normals[3 * t + k]), {0, 0, 0}));
+            if (std::isfinite(along)) agreement += along;
+        }
+    }
+    if (agreement >= 0) return;
+    for (Float3& normal : mesh.corner_normals)
+        normal = {-normal[0], -normal[1], -normal[2]};
+}
+
+// Texture coordinates are carried along, never computed with: one that is no number would only spoil the output file.
+void cleanUvs(Mesh& mesh) {
+    for (Float2& uv : mesh.corner_uvs)
+        if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) uv = {0, 0};
+}
+
+} // namespace
+
+engine::Result<PreparedMesh> prepareMesh(const ImportedMesh& imported) {
+    if (imported.triangles.empty()) return badMesh("no triangles in the model");
+    const std::vector<char> used = usedVertices(imported);
+    const auto box = boxOfUsed(imported, used);
+    if (!box) return box.error();
+    PreparedMesh prepared;
+    Mesh& mesh = prepared.mesh;
+    mesh.center = 0.5 * (box->lower + box->upper);
+    addTriangles(imported, weld(imported, used, mesh, prepared.notes), mesh, prepared.notes);
+    if (prepared.notes.collapsed > 0) dropUnusedPositions(mesh);
+    if (mesh.triangles.empty()) return badMesh("every triangle of the model has collapsed to a line or point");
+    prepared.notes.turned_inside_out = measureMesh(mesh).volume < 0;
+    if (prepared.notes.turned_inside_out) turnInsideOut(mesh);
+    pointNormalsOutward(mesh);
+    cleanUvs(mesh);
+    prepared.topology = buildTopology(mesh);
+    completeNormals(mesh, prepared.topology);
+    return prepared;
+}
+
+} // namespace brittle

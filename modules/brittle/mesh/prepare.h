@@ -1,0 +1,29 @@
+// Turns what a file holds into a mesh that can be broken.
+#pragma once
+
+#include "engine/result.h"
+#include "modules/brittle/mesh/imported_mesh.h"
+
+namespace brittle {
+
+// What was done to the mesh on the way, for the doctor.
+struct PrepareNotes {
+    uint32_t vertices_in = 0;   // in the file
+    uint32_t unused = 0;        // of those, used by no triangle
+    uint32_t welded = 0;        // of the rest, at the place of another
+    uint32_t collapsed = 0;     // triangles dropped because two corners are one
+    bool turned_inside_out = false;
+};
+
+struct PreparedMesh {
+    Mesh mesh;
+    MeshTopology topology;
+    PrepareNotes notes;
+};
+
+// Moves the box's center to the origin, joins vertices at the same place, drops triangles that have collapsed, turns an
+// inside-out mesh the right way round and completes the normals. Whether the result is closed is for checkMesh to say.
+// BadInput where coordinates are not finite, or so large or small that floats cannot work with them.
+engine::Result<PreparedMesh> prepareMesh(const ImportedMesh& imported);
+
+} // namespace brittle

@@ -1,0 +1,60 @@
+// Walks text line by line and word by word, for the model files that are text. Never looks past the end, whatever the file
+// holds; knows the line it is in, for messages.
+#pragma once
+
+#include "modules/brittle/mesh/mesh.h"
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace brittle {
+
+inline bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
+
+// Words of one line; a view into text that must outlive it.
+class Words {
+public:
+    explicit Words(std::string_view text) : rest_(text) {}
+    // Empty at the end.
+    std::string_view next();
+    // nullopt where there is no number. What is too large for a double is infinite, what is too small is 0.
+    std::optional<double> nextNumber();
+    template <class Int>
+    std::optional<Int> nextInt() {
+        const std::string_view word = next();
+        Int value = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+        return value;
+    }
+
+private:
+    std::string_view rest_;
+};
+
+std::optional<double> parseNumber(std::string_view word);
+
+class TextReader {
+public:
+    explicit TextReader(std::string_view text);
+    bool atEnd() const { return rest_.empty(); }
+    size_t line() const { return line_; } // of what was read last, from 1
+    std::string_view rest() const { return rest_; }
+
+    // Ends at \n, \r\n or \r, which are not part of it.
+    std::string_view nextLine();
+    // The next word, over any line ends; empty at the end of the text.
+    std::string_view nextWord();
+    // The next line that holds more than blanks and, from `comment` on, a comment. Empty at the end of the text.
+    std::string_view nextFullLine(char comment);
+
+private:
+    std::string_view rest_;
+    size_t line_ = 0;
+    bool inside_line_ = false; // nextWord stopped within line_
+    bool ends_with_cr_ = false; // lines end at \r alone: a \n after one is the first byte of what follows
+};
+
+} // namespace brittle

@@ -1,0 +1,24 @@
+// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, order);
+READS(2, uint, sources);
+READS(3, uint, components);
+READS(4, uvec2, fates);
+WRITES(5, uvec4, classes);
+layout(push_constant) uniform Push { uint triangle_count; };
+
+void main() {
+    uint k = flatIndex();
+    if (k >= counts[COUNT_VALID] || counts[STATUS_FAILED] != 0u) return;
+    uint t = order[k], caps = triangle_count + counts[COUNT_FAN_TRIANGLES];
+    bool cap = (sources[t] & INNER_BIT) != 0u;
+    uint mate = components[cap ? caps + ((t - caps) ^ 1u) : t];
+    bool faced = mate != NO_INDEX && fates[mate].x != FATE_DISSOLVED;
+    bool stays = fates[components[t]].x != FATE_DISSOLVED;
+    classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced ? 1u : 0u, 0u, 0u);
+}

@@ -1,0 +1,111 @@
+// One (triangle, cell) pair a lane: the triangle's three edges, clipped by the bisectors of the cell. A polygon is a cyclic
+// list of sides (edges of the triangle or neighboring sites), a vertex is two sides in a row. Cells across a side that is a
+// bisector are pairs of the next round, so that no lane ever walks all cells of a triangle.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/corner_values.glsl"
+#include "lib/triangle_predicate.glsl"
+
+FLAT_KERNEL;
+UPDATES(0, uint, counts);
+READS(1, ivec4, sites);
+READS(2, uvec4, cell_offsets);
+READS(3, uint, neighbors);
+READS(4, ivec4, grid_vertices);
+READS(5, uint, triangles);
+READS(6, uint, mixed_triangles);
+READS(7, uint, round_bounds);
+UPDATES(8, uvec2, pairs);
+UPDATES(9, uint, pair_table);
+WRITES(10, uint, pair_sides);
+WRITES(11, uvec2, pair_shape);  // sides; the site across the bisector in which the triangle lies, solid on its side
+UPDATES(12, uint, triangle_polygons);
+layout(push_constant) uniform Push {
+    uint pair_capacity;
+    uint table_mask;
+};
+#include "lib/pair_set.glsl"
+
+ivec3 corner[3];
+uint side[MAX_SIDES + 2];
+uint fresh[2 * MAX_SIDES + 2];
+
+Row rowOf(uint i, ivec3 qi, uint id) {
+    bool edge = id >= EDGE_BASE;
+    ivec3 qj = sites[edge ? i : id].xyz;
+    uint away = (id - EDGE_BASE + 2u) % 3u; // the barycentric coordinate that is 0 on this edge
+    Row r;
+    for (uint c = 0u; c < 3u; c++) {
+        r.v[c] = edge ? (away == c ? int64_t(1) : int64_t(0)) : cornerValue(qi, qj, corner[c]);
+    }
+    r.id = id;
+    return r;
+}
+
+// The solid lies against the normal of a triangle that faces outward: sign of normal . (q_i - q_j).
+int solidSide(ivec3 qi, ivec3 qj) {
+    ivec3 u = corner[1] - corner[0], w = corner[2] - corner[0], d = qi - qj;
+    int64_t nx = int64_t(u.y) * int64_t(w.z) - int64_t(u.z) * int64_t(w.y);
+    int64_t ny = int64_t(u.z) * int64_t(w.x) - int64_t(u.x) * int64_t(w.z);
+    int64_t nz = int64_t(u.x) * int64_t(w.y) - int64_t(u.y) * int64_t(w.x);
+    return wideSign(wideAdd(wideAdd(wideMul(nx, int64_t(d.x)), wideMul(ny, int64_t(d.y))), wideMul(nz, int64_t(d.z))));
+}
+
+void main() {
+    uint p = flatIndex() + round_bounds[0];
+    if (p >= round_bounds[1] || counts[STATUS_FAILED] != 0u) return;
+    uvec2 pair = pairs[p];
+    uint m = pair.x, i = pair.y, t = mixed_triangles[m];
+    for (uint c = 0u; c < 3u; c++) corner[c] = grid_vertices[triangles[3u * t + c]].xyz;
+    ivec3 qi = sites[i].xyz;
+    uint n = 3u, flat_with = NO_INDEX;
+    bool broken = false;
+    for (uint k = 0u; k < 3u; k++) side[k] = EDGE_BASE + k;
+
+    uint next = cell_offsets[i].x, last = cell_offsets[i + 1u].x;
+    for (uint turn = 0u; turn < 8192u && next < last && n > 0u; turn++) {
+        // Search until every lane has a bisector that may cut, then cut together.
+        Row l;
+        bool found = false;
+        for (; next < last && !found; next++) {
+            l = rowOf(i, qi, neighbors[next]);
+            found = !nearerTo(l.v[0], i, l.id) || !nearerTo(l.v[1], i, l.id) || !nearerTo(l.v[2], i, l.id);
+            if (isZero(l.v[0]) && isZero(l.v[1]) && isZero(l.v[2])) flat_with = l.id;
+        }
+        uint gone = 0u, count = found ? n : 0u;
+        Row j = rowOf(i, qi, side[0]), first_row = j;
+        for (uint k = 0u; k < count; k++) {
+            Row following = first_row;
+            if (k + 1u < count) following = rowOf(i, qi, side[k + 1u]);
+            gone |= triangleSign(i, j, following, l) < 0 ? 1u << k : 0u;
+            j = following;
+        }
+        // The corners cut away are one run; l takes the place of the sides between its ends.
+        uint kept = 0u, exits = 0u;
+        for (uint k = 0u; k < count; k++) {
+            bool start_gone = ((gone >> (k == 0u ? n - 1u : k - 1u)) & 1u) != 0u, end_gone = ((gone >> k) & 1u) != 0u;
+            if (!(start_gone && end_gone)) fresh[kept++] = side[k];
+            if (!start_gone && end_gone) {
+                fresh[kept++] = l.id;
+                exits++;
+            }
+        }
+        broken = broken || exits > 1u || kept > MAX_SIDES;
+        kept = min(kept, uint(MAX_SIDES));
+        n = found ? kept : n;
+        for (uint k = 0u; k < kept; k++) side[k] = fresh[k];
+    }
+
+    if (flat_with != NO_INDEX && solidSide(qi, sites[flat_with].xyz) <= 0) flat_with = NO_INDEX;
+    if (broken) {
+        atomicAdd(counts[STATUS_BAD_CLIP], 1u);
+        atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
+    }
+    pair_shape[p] = uvec2(n, flat_with);
+    if (n > 0u) atomicAdd(triangle_polygons[m], 1u);
+    for (uint k = 0u; k < n; k++) {
+        pair_sides[p * MAX_SIDES + k] = side[k];
+        if (side[k] < EDGE_BASE) addPair(m, side[k]);
+    }
+}

@@ -1,0 +1,85 @@
+// Writes the triangles into the scene's pools, outer ones first. Outer corners take normal and texture coordinates from the
+// mesh triangle that they lie on, by their barycentric place in it; inner ones get the bisector's normal and texture
+// coordinates in model units along it.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, order);
+READS(2, uint, components);
+READS(3, uvec4, pieces);
+READS(4, uint, sources);
+READS(5, vec4, positions);
+READS(6, uvec4, class_offsets);
+READS(7, uint, component_start);
+READS(8, uvec4, shares);
+READS(9, uvec4, demand_offsets);
+READS(10, uvec2, fates);
+READS(11, float, mesh_positions);
+READS(12, uint, triangles);
+READS(13, float, corner_attributes); // normal, uv
+WRITES(14, float, vertices);
+WRITES(15, uint, indices);
+
+vec3 modelVertex(uint v) { return vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]); }
+
+vec3 barycentric(vec3 p, vec3 a, vec3 b, vec3 c) {
+    vec3 n = cross(b - a, c - a);
+    float size = max(dot(n, n), 1e-38);
+    vec3 w = vec3(dot(n, cross(c - b, p - b)), dot(n, cross(a - c, p - c)), dot(n, cross(b - a, p - a))) / size;
+    w = clamp(w, 0.0, 1.0);
+    return w / max(w.x + w.y + w.z, 1e-20);
+}
+
+float cornerAttribute(uint corner, uint k) { return corner_attributes[5u * corner + k]; }
+
+void saveVertex(uint v, vec3 p, vec3 n, vec2 uv) {
+    vertices[8u * v] = p.x;
+    vertices[8u * v + 1u] = p.y;
+    vertices[8u * v + 2u] = p.z;
+    vertices[8u * v + 3u] = n.x;
+    vertices[8u * v + 4u] = n.y;
+    vertices[8u * v + 5u] = n.z;
+    vertices[8u * v + 6u] = uv.x;
+    vertices[8u * v + 7u] = uv.y;
+}
+
+void main() {
+    uint k = flatIndex();
+    if (k >= counts[COUNT_VALID] || counts[STATUS_FAILED] != 0u) return;
+    uint t = order[k], c = components[t];
+    uvec4 rank = class_offsets[k], until = class_offsets[k + 1u], share = shares[c];
+    bool outer = until.x != rank.x, inner = until.y != rank.y;
+    if (!outer && !inner) return;
+    uvec2 within = rank.xy - class_offsets[component_start[c]].xy + share.xy;
+    uint first = demand_offsets[fates[c].y].y;
+    uint local = outer ? within.x : share.z + within.y;
+    uvec4 piece = pieces[t];
+    uint source = sources[t] & ~INNER_BIT;
+    bool cap = (sources[t] & INNER_BIT) != 0u;
+    uint m = cap ? 0u : source;
+    vec3 a = modelVertex(triangles[3u * m]), b = modelVertex(triangles[3u * m + 1u]), d = modelVertex(triangles[3u * m + 2u]);
+    vec3 p0 = positions[piece.x].xyz, p1 = positions[piece.y].xyz, p2 = positions[piece.z].xyz;
+    vec3 flat_normal = cross(p1 - p0, p2 - p0);
+    float size = length(flat_normal);
+    flat_normal = size > 0.0 ? flat_normal / size : vec3(0.0, 0.0, 1.0);
+    vec3 along = abs(flat_normal.x) > 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 u = normalize(cross(along, flat_normal)), w = cross(flat_normal, u);
+    for (uint corner = 0u; corner < 3u; corner++) {
+        vec3 p = positions[piece[corner]].xyz;
+        vec3 weight = barycentric(p, a, b, d);
+        vec3 n = vec3(0.0);
+        vec2 uv = vec2(0.0);
+        for (uint s = 0u; s < 3u; s++) {
+            n += weight[s] * vec3(cornerAttribute(3u * m + s, 0u), cornerAttribute(3u * m + s, 1u), cornerAttribute(3u * m + s, 2u));
+            uv += weight[s] * vec2(cornerAttribute(3u * m + s, 3u), cornerAttribute(3u * m + s, 4u));
+        }
+        float length_ = length(n);
+        n = length_ > 1e-6 ? n / length_ : flat_normal;
+        uint to = 3u * (first + local) + corner;
+        saveVertex(to, p, cap ? flat_normal : n, cap ? vec2(dot(p, u), dot(p, w)) : uv);
+        indices[to] = 3u * local + corner;
+    }
+}

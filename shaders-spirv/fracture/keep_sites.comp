@@ -1,0 +1,26 @@
+// The sites of the event, by id, and how many lie in each bin of the search grid.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+FLAT_KERNEL;
+READS(0, uint, site_slot);
+READS(1, uint, raw_sites);
+WRITES(2, ivec4, sites); // position on the grid; w: which of the sites asked for
+UPDATES(3, uint, bin_counts);
+layout(push_constant) uniform Push {
+    ivec4 bins;
+    ivec4 box_low;
+    uint site_count;
+};
+
+void main() {
+    uint s = flatIndex();
+    if (s >= site_count) return;
+    uint at = site_slot[s];
+    if (site_slot[s + 1u] == at) return;
+    ivec3 p = ivec3(int(raw_sites[3u * s]), int(raw_sites[3u * s + 1u]), int(raw_sites[3u * s + 2u]));
+    sites[at] = ivec4(p, int(s));
+    ivec3 b = min((p - box_low.xyz) / bins.w, bins.xyz - 1);
+    atomicAdd(bin_counts[(b.z * bins.y + b.y) * bins.x + b.x], 1u);
+}

@@ -1,0 +1,39 @@
+// Both sides of every cap: the lower cell's, and its mirror image for the other, always in a row.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, faces);
+READS(2, uint, neighbors);
+READS(3, uint, face_cells);
+READS(4, uint, face_offsets);
+READS(5, uint, cap_offsets);
+READS(6, uvec4, loose_caps);
+WRITES(7, uvec4, pieces);
+WRITES(8, uint, sources);
+WRITES(9, uint, parents);
+layout(push_constant) uniform Push { uint triangle_count; };
+
+void main() {
+    uint at = flatIndex();
+    if (at >= counts[COUNT_FACES] || counts[STATUS_FAILED] != 0u) return;
+    uint f = faces[at], from = 2u * face_offsets[f], slots = 2u * face_offsets[f + 1u];
+    uint to = triangle_count + counts[COUNT_FAN_TRIANGLES] + 2u * cap_offsets[at];
+    uint left = cap_offsets[at + 1u] - cap_offsets[at];
+    for (; left > 0u && from < slots; from++) {
+        uvec4 cap = loose_caps[from];
+        if (cap.x != NO_INDEX) {
+            bool flat_ = cap.x == cap.y || cap.y == cap.z || cap.z == cap.x;
+            pieces[to] = uvec4(cap.xyz, flat_ ? NO_INDEX : face_cells[f]);
+            pieces[to + 1u] = uvec4(cap.xzy, flat_ ? NO_INDEX : neighbors[f]);
+            sources[to] = INNER_BIT | f;
+            sources[to + 1u] = INNER_BIT | f;
+            parents[to] = to;
+            parents[to + 1u] = to + 1u;
+            to += 2u;
+            left--;
+        }
+    }
+}

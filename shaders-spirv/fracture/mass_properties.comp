@@ -1,0 +1,62 @@
+// Volume, centroid, area and bounds of each component by the divergence theorem, a workgroup a component, summed in a fixed
+// order. Positions are taken relative to the component's own first corner, so that small pieces far from the center keep
+// their digits.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "shared/fragment_record.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, component_start);
+READS(2, uint, order);
+READS(3, uvec4, pieces);
+READS(4, uint, sources);
+READS(5, vec4, positions);
+WRITES(6, FragmentRecord, records);
+
+shared vec4 sums[GROUP_SIZE];
+shared vec4 moments[GROUP_SIZE];
+shared vec4 lows[GROUP_SIZE];
+shared vec4 highs[GROUP_SIZE];
+
+void main() {
+    uint c = flatGroup(), lane = gl_LocalInvocationID.x;
+    bool idle = c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u;
+    uint first = idle ? 0u : component_start[c], last = idle ? 0u : component_start[c + 1u];
+    uvec4 lead = pieces[order[first]];
+    precise vec3 origin = positions[lead.x].xyz;
+    precise vec4 sum = vec4(0.0), moment = vec4(0.0);
+    vec4 low = vec4(1e38), high = vec4(-1e38);
+    for (uint k = first + lane; k < last; k += GROUP_SIZE) {
+        uint t = order[k];
+        uvec4 piece = pieces[t];
+        precise vec3 a = positions[piece.x].xyz - origin, b = positions[piece.y].xyz - origin, d = positions[piece.z].xyz - origin;
+        precise float volume = dot(a, cross(b, d)) / 6.0;
+        precise float area = 0.5 * length(cross(b - a, d - a));
+        sum += vec4(volume, area, (sources[t] & INNER_BIT) == 0u ? area : 0.0, length(b - a) + length(d - b) + length(a - d));
+        moment += vec4(0.25 * volume * (a + b + d), 0.0);
+        low = min(low, vec4(min(a, min(b, d)), 0.0));
+        high = max(high, vec4(max(a, max(b, d)), 0.0));
+    }
+    sums[lane] = sum;
+    moments[lane] = moment;
+    lows[lane] = low;
+    highs[lane] = high;
+    barrier();
+    for (uint width = GROUP_SIZE / 2u; width > 0u; width >>= 1) {
+        if (lane < width) {
+            sums[lane] += sums[lane + width];
+            moments[lane] += moments[lane + width];
+            lows[lane] = min(lows[lane], lows[lane + width]);
+            highs[lane] = max(highs[lane], highs[lane + width]);
+        }
+        barrier();
+    }
+    if (lane == 0u && !idle) {
+        float volume = sums[0].x;
+        vec3 balance = origin + (volume != 0.0 ? moments[0].xyz / volume : vec3(0.0));
+        records[c] = FragmentRecord(sums[0], vec4(balance, 0.0), vec4(origin + lows[0].xyz, 0.0), vec4(origin + highs[0].xyz, 0.0),
+                                    uvec4(FATE_FRAGMENT, c, lead.w, 0u), uvec4(0u));
+    }
+}

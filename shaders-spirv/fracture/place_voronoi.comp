@@ -1,0 +1,59 @@
+// Voronoi vertices from the exact numerators of their four sites, relative to the lowest.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/exact_cut.glsl"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, ivec4, sites);
+READS(2, uvec4, vertex_sites);
+WRITES(3, uint, points);
+WRITES(4, vec4, positions);
+layout(push_constant) uniform Push {
+    uint vertex_count;
+    float step_size; // model units per grid step
+};
+#include "lib/place.glsl"
+
+Plane bisector(ivec3 q, ivec3 s) {
+    ivec3 d = s - q;
+    return Plane(d, 0u, int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z));
+}
+
+// floor(2^24 num / den) for |num| < 2^25 den, den > 0.
+int64_t quotient24(Wide128 num, Wide128 den) {
+    Wide128 shifted = wideShiftLeft25(den);
+    Wide128 rest = wideAdd(num, shifted);
+    uint64_t q = uint64_t(0);
+    for (uint k = 0u; k < 50u; k++) {
+        bool take = !wideLess(rest, shifted);
+        if (take) rest = wideSub(rest, shifted);
+        rest = wideDouble(rest);
+        q = (q << 1) | (take ? uint64_t(1) : uint64_t(0));
+    }
+    return int64_t(q) - (int64_t(1) << 49);
+}
+
+float toModel(int64_t x) {
+    int64_t centered = x - (int64_t(1) << 47);
+    precise float p = (float(int(centered >> 24)) + float(uint(centered) & 0xffffffu) * (1.0 / 16777216.0)) * step_size;
+    return p;
+}
+
+void main() {
+    uint v = flatIndex();
+    if (v >= counts[COUNT_VORONOI_VERTICES] || counts[STATUS_FAILED] != 0u) return;
+    uvec4 s = vertex_sites[v];
+    ivec3 q = sites[s.x].xyz;
+    Corner t = cornerOf(bisector(q, sites[s.y].xyz), bisector(q, sites[s.z].xyz), bisector(q, sites[s.w].xyz));
+    bool turned = wideSign(t.volume) < 0;
+    Wide128 den = wideDouble(turned ? wideNegate(t.volume) : t.volume);
+    int64_t x[3];
+    for (uint k = 0u; k < 3u; k++) {
+        x[k] = quotient24(turned ? wideNegate(t.moment[k]) : t.moment[k], den) + (int64_t(q[k]) << POINT_FRACTION_BITS);
+    }
+    uint id = vertex_count + counts[COUNT_CROSSINGS] + counts[COUNT_TRIPLES] + v;
+    savePoint(id, x[0], x[1], x[2]);
+    positions[id] = vec4(toModel(x[0]), toModel(x[1]), toModel(x[2]), 0.0);
+}

@@ -1,0 +1,20 @@
+// Mesh vertices to the event's 24-bit grid. The scale is a power of two, so nothing is rounded but the last step, and every
+// device snaps alike. The grid decides topology only; vertices are emitted with their own coordinates.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+FLAT_KERNEL;
+READS(0, float, mesh_positions);
+WRITES(1, ivec4, grid_vertices);
+layout(push_constant) uniform Push {
+    uint length;
+    float scale; // grid steps per model unit
+};
+
+void main() {
+    uint v = flatIndex();
+    if (v >= length) return;
+    precise vec3 p = vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]) * scale;
+    grid_vertices[v] = ivec4(ivec3(roundEven(p)) + ivec3(1 << 23), 0);
+}

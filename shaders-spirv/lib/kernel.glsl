@@ -1,0 +1,15 @@
+// What every fracture kernel needs: extensions, the shared constants, buffer declarations, and the flat index of a lane.
+#ifndef KERNEL_GLSL
+#define KERNEL_GLSL
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#include "shared/fracture.h"
+
+#define READS(slot, type, name) layout(set = 0, binding = slot, std430) readonly buffer name##_block { type name[]; }
+#define WRITES(slot, type, name) layout(set = 0, binding = slot, std430) writeonly buffer name##_block { type name[]; }
+#define UPDATES(slot, type, name) layout(set = 0, binding = slot, std430) buffer name##_block { type name[]; }
+#define FLAT_KERNEL layout(local_size_x = GROUP_SIZE) in
+
+uint flatGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+uint flatIndex() { return flatGroup() * GROUP_SIZE + gl_LocalInvocationID.x; }
+
+#endif

@@ -1,0 +1,23 @@
+// Publishes a count that is a weighted sum of others and a constant.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+layout(local_size_x = 1) in;
+UPDATES(0, uint, counts);
+WRITES(1, uint, args);
+layout(push_constant) uniform Push {
+    uint count;
+    uint capacity;
+    uint constant;
+    uint pad;
+    uvec4 terms; // counts, or NO_INDEX
+    uvec4 weights;
+};
+#include "lib/publish.glsl"
+
+void main() {
+    uint total = constant;
+    for (uint k = 0u; k < 4u; k++) total += terms[k] == NO_INDEX ? 0u : counts[terms[k]] * weights[k];
+    publishCount(count, total, capacity);
+}

@@ -1,0 +1,98 @@
+// Numbers that the fracture kernels and the host agree on. Plain preprocessor constants: read by C++ and GLSL.
+#ifndef BRITTLE_SHARED_FRACTURE_H
+#define BRITTLE_SHARED_FRACTURE_H
+
+// Ids of sites count from 0; what is no site stands above.
+#define NO_INDEX 0xffffffffu
+#define BOX_BASE 0xfffffff0u  /* six walls of the box: BOX_BASE + 0..5 = -x +x -y +y -z +z */
+#define EDGE_BASE 0xffffffe0u /* side of a clipped polygon on edge k of its triangle: EDGE_BASE + k */
+
+// Lanes of a workgroup in every flat kernel, and elements that one workgroup scans.
+#define GROUP_SIZE 64
+#define SCAN_BLOCK 1024
+
+// Indices into the buffer of counts; the dispatch arguments of a count have the same index.
+#define COUNT_SITES 0
+#define COUNT_NEIGHBORS 1
+#define COUNT_CORNERS 2          /* corners of all cells, each Voronoi vertex up to four times */
+#define COUNT_VORONOI_VERTICES 3
+#define COUNT_VORONOI_EDGES 4
+#define COUNT_MIXED_EDGES 5
+#define COUNT_CROSSINGS 6
+#define COUNT_MIXED_TRIANGLES 7
+#define COUNT_PAIRS 8
+#define COUNT_ROUND 9            /* pairs of the current round */
+#define COUNT_POLYGONS 10
+#define COUNT_SIDES 11
+#define COUNT_TRIPLES 12
+#define COUNT_FAN_TRIANGLES 13
+#define COUNT_POINTS 14          /* mesh vertices, crossings, triple points, Voronoi vertices */
+#define COUNT_INTERVALS 15
+#define COUNT_SEGMENTS 16
+#define COUNT_FACES 17
+#define COUNT_CAP_TRIANGLES 18
+#define COUNT_NODES 19
+#define COUNT_COMPONENTS 20
+#define COUNT_TRIANGLES 21       /* candidates: whole triangles, fans, both sides of caps */
+#define COUNT_FRAGMENTS 22
+#define COUNT_VALID 23           /* triangles that are left after collapsed ones are dropped */
+#define COUNT_EXACT_SMALL 24     /* cells queued for the exact kernel, by size */
+#define COUNT_EXACT_MEDIUM 25
+#define COUNT_EXACT_LARGE 26
+#define COUNT_HUGE_FACES 27
+#define COUNT_LARGE_FACES 28
+#define COUNT_RADIX 29
+#define COUNT_EMITTED 30         /* triangles of all fragments */
+#define COUNT_DRAWS 31
+#define COUNT_TOTAL 32
+
+// Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
+#define STATUS_FAILED COUNT_TOTAL
+#define STATUS_NEEDED (COUNT_TOTAL + 1)     /* one word per count: what the pool would have had to hold */
+#define STATUS_BAD_CELLS (2 * COUNT_TOTAL + 1)
+#define STATUS_BAD_CLIP (2 * COUNT_TOTAL + 2)
+#define STATUS_BAD_LOOKUP (2 * COUNT_TOTAL + 3)
+#define STATUS_BAD_DEPTH (2 * COUNT_TOTAL + 4)
+#define STATUS_BAD_CAP (2 * COUNT_TOTAL + 5)
+#define STATUS_BAD_UNION (2 * COUNT_TOTAL + 6)
+#define STATUS_UNPLACED (2 * COUNT_TOTAL + 7)
+#define STATUS_WELDED (2 * COUNT_TOTAL + 8)
+#define STATUS_DISSOLVED (2 * COUNT_TOTAL + 9)
+#define STATUS_CAVITIES (2 * COUNT_TOTAL + 10)
+#define STATUS_REDONE (2 * COUNT_TOTAL + 11)
+#define STATUS_EMPTY_CELLS (2 * COUNT_TOTAL + 12)
+#define STATUS_ROUNDS_LEFT (2 * COUNT_TOTAL + 13)
+#define STATUS_TURNED_OVER (2 * COUNT_TOTAL + 14)
+#define STATUS_BAD_WELD (2 * COUNT_TOTAL + 15)
+#define STATUS_WORDS (2 * COUNT_TOTAL + 32)
+
+#define FAILED_CAPACITY 1u
+#define FAILED_CELLS 2u
+#define FAILED_CLIP 4u
+
+// A cell as the cutting kernels leave it: planes' site ids, then corners as triples of plane indices.
+#define RAW_PLANES 64
+#define RAW_CORNERS 112
+#define RAW_WORDS (2 + RAW_PLANES + RAW_CORNERS) /* status, counts, ids, packed triples */
+
+#define CELL_OK 0u
+#define CELL_UNDECIDED 1u
+#define CELL_OVERFLOW 2u
+
+#define MAX_SIDES 24
+
+// Segments of a cap: up to these a face is one lane's, a small workgroup's, a large one's.
+#define SMALL_FACE 24
+#define LARGE_FACE 256
+#define HUGE_FACE 2048
+#define POINT_FRACTION_BITS 24
+#define INNER_BIT 0x80000000u /* of a triangle's source: a cap, not a mesh triangle */
+
+#define FATE_FRAGMENT 0u
+#define FATE_DISSOLVED 1u
+#define FATE_CAVITY 2u
+
+#define RADIX_BITS 4
+#define RADIX_TILE 1024
+
+#endif

@@ -1,0 +1,153 @@
+#include "tests/engine/test_device.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace engine;
+using namespace engine_test;
+
+namespace {
+
+struct AddIndexPush {
+    uint32_t count, factor;
+};
+
+// target[i] = source[i] + 3 i + 7, with source[i] = 1000 + i.
+std::vector<uint32_t> addIndex(Device& device, uint32_t count) {
+    const Buffer source = upload(device, countingFrom(1000, count)), target = readback(device, count);
+    Commands commands(device);
+    EXPECT_TRUE(commands.begin());
+    commands.dispatch(testKernel(device, "add_index", {7u}), count, AddIndexPush{count, 3}, {source, target});
+    finish(commands);
+    return wordsOf(target);
+}
+
+std::vector<uint32_t> addIndexExpected(uint32_t count) {
+    std::vector<uint32_t> words(count);
+    for (uint32_t i = 0; i < count; ++i)
+        words[i] = 1007 + 4 * i;
+    return words;
+}
+
+} // namespace
+
+TEST(Dispatch, GivesTheSameOnEveryKindOfDevice) {
+    for (Device* device : allDevices()) {
+        for (const uint32_t count : {1u, 63u, 64u, 65u, 1234u, 100000u})
+            EXPECT_EQ(addIndex(*device, count), addIndexExpected(count)) << count;
+    }
+}
+
+TEST(Dispatch, OfNothingRecordsNothing) {
+    const Buffer words = upload(device(), {41});
+    Commands commands(device());
+    ASSERT_TRUE(commands.begin());
+    commands.dispatch(testKernel(device(), "increment"), 0, NoPush{}, {words});
+    commands.dispatchGroups(testKernel(device(), "increment"), 0, NoPush{}, {words});
+    EXPECT_EQ(commands.dispatchCount(), 0u);
+    finish(commands);
+    EXPECT_EQ(wordsOf(words)[0], 41u);
+}
+
+TEST(Dispatch, BindsSixteenBuffers) {
+    for (Device* device : allDevices()) {
+        const Buffer word = upload(*device, {3}), sum = readback(*device, 1);
+        Commands commands(*device);
+        ASSERT_TRUE(commands.begin());
+        commands.dispatch(testKernel(*device, "many_buffers"), 1, NoPush{},
+                          {word, word, word, word, word, word, word, word, word, word, word, word, word, word, word, sum});
+        finish(commands);
+        EXPECT_EQ(wordsOf(sum)[0], 45u);
+    }
+}
+
+// More workgroups than one dimension holds, once a little and once by several rows: every index is visited once, and less
+// than one row's worth of indices lies past the end.
+TEST(Dispatch, VisitsEveryIndexOnceBeyondOneDimension) {
+    for (Device* device : allDevices()) {
+        for (const uint32_t count : {65535u, 65536u, 200001u}) {
+            const Buffer visits = readback(*device, count + 1);
+            Commands commands(*device);
+            ASSERT_TRUE(commands.begin());
+            commands.fill(visits, 0);
+            commands.dispatch(testKernel(*device, "count_once"), count, count, {visits});
+            finish(commands);
+            const std::vector<uint32_t> words = wordsOf(visits);
+            EXPECT_EQ(std::count(words.begin(), words.begin() + count, 1u), count);
+            EXPECT_LT(words[count], 4u);
+        }
+    }
+}
+
+TEST(Dispatch, IndirectTakesItsSizeFromTheDevice) {
+    for (Device* device : allDevices()) {
+        for (const uint32_t groups : {0u, 1u, 3u}) {
+            const Buffer words = upload(*device, countingFrom(0, 256)), args = scratch(*device, 64);
+            const BufferView third = BufferView(args).sub(8, 12);
+            Commands commands(*device);
+            ASSERT_TRUE(commands.begin());
+            commands.dispatch(testKernel(*device, "write_args"), 1, uint32_t{99}, {args});
+            const uint32_t sizes[] = {groups, 1, 1};
+            const Buffer given = upload(*device, {sizes, sizes + 3});
+            commands.copy(given, third);
+            commands.dispatchIndirect(testKernel(*device, "increment"), third, NoPush{}, {words});
+            finish(commands);
+            const std::vector<uint32_t> result = wordsOf(words);
+            for (uint32_t i = 0; i < 256; ++i)
+                ASSERT_EQ(result[i], i + (i < 64 * groups ? 1 : 0));
+        }
+    }
+}
+
+TEST(Dispatch, RecordsIntoTheCallersCommandBuffer) {
+    Device& d = device();
+    VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool_info.queueFamilyIndex = d.computeQueue().family;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    ASSERT_EQ(d.vk().vkCreateCommandPool(d.handle(), &pool_info, nullptr, &pool), VK_SUCCESS);
+    const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
+                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    VkCommandBuffer theirs = VK_NULL_HANDLE;
+    ASSERT_EQ(d.vk().vkAllocateCommandBuffers(d.handle(), &info, &theirs), VK_SUCCESS);
+    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    ASSERT_EQ(d.vk().vkBeginCommandBuffer(theirs, &begin), VK_SUCCESS);
+
+    const Buffer words = upload(d, {1, 2, 3});
+    Commands commands(d, theirs);
+    commands.beginLabel("increment");
+    commands.dispatch(testKernel(d, "increment"), 3, NoPush{}, {words});
+    commands.endLabel();
+    commands.flush();
+    EXPECT_TRUE(commands.status());
+    ASSERT_EQ(d.vk().vkEndCommandBuffer(theirs), VK_SUCCESS);
+    ASSERT_TRUE(d.submit(d.computeQueue(), theirs, VK_NULL_HANDLE));
+    d.waitIdle();
+    EXPECT_EQ(wordsOf(words), (std::vector<uint32_t>{2, 3, 4}));
+    EXPECT_EQ(commands.timings()->size(), 1u);
+    d.vk().vkDestroyCommandPool(d.handle(), pool, nullptr);
+}
+
+TEST(Dispatch, FollowsMoreRecordingsThanOnePoolOfDescriptors) {
+    Device& d = pooledDevice();
+    const Buffer words = upload(d, {0});
+    Commands commands(d);
+    for (int round = 0; round < 2; ++round) {
+        ASSERT_TRUE(commands.begin());
+        for (int i = 0; i < 600; ++i)
+            commands.dispatch(testKernel(d, "increment"), 1, NoPush{}, {words});
+        EXPECT_EQ(commands.barrierCount(), 599u);
+        finish(commands);
+    }
+    EXPECT_EQ(wordsOf(words)[0], 1200u);
+}
+
+TEST(Copy, MovesRangesAndFillsThem) {
+    const Buffer source = upload(device(), countingFrom(10, 8)), target = readback(device(), 8);
+    Commands commands(device());
+    ASSERT_TRUE(commands.begin());
+    commands.fill(target, 5);
+    commands.copy(BufferView(source).sub(8, 12), BufferView(target).sub(4, 12));
+    commands.copy({&source, 0, 0}, target);
+    finish(commands);
+    EXPECT_EQ(wordsOf(target), (std::vector<uint32_t>{5, 12, 13, 14, 5, 5, 5, 5}));
+}

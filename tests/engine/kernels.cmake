@@ -1,0 +1,10 @@
+# Kernels that only the engine's tests use.
+kernel(add_index.comp)
+kernel(add_index.comp NAME add_index_twice DEFINES TIMES=2)
+kernel(count_once.comp)
+kernel(increment.comp)
+kernel(write_args.comp)
+kernel(reflected.comp)
+kernel(many_buffers.comp)
+kernel(flat_workgroup.comp)
+kernel(passthrough.vert)

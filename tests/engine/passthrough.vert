@@ -1,0 +1,3 @@
+// No compute shader.
+#version 450
+void main() { gl_Position = vec4(0.0); }

@@ -1,0 +1,40 @@
+// main() of every test program: a test during which the validation layers said anything that it did not mean to cause has
+// failed.
+#include "engine/instance.h"
+#include "tests/engine/test_device.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace {
+
+uint32_t expected_messages = 0;
+
+class ValidationGate : public testing::EmptyTestEventListener {
+    void OnTestStart(const testing::TestInfo&) override {
+        before_ = engine::validationMessageTotal();
+        expected_messages = 0;
+    }
+    void OnTestEnd(const testing::TestInfo&) override {
+        const uint32_t heard = engine::validationMessageTotal() - before_;
+        if (heard != expected_messages) ADD_FAILURE() << heard << " messages from the validation layers";
+    }
+    uint32_t before_ = 0;
+};
+
+} // namespace
+
+namespace engine_test {
+
+void expectValidationMessages(uint32_t count) { expected_messages = count; }
+
+} // namespace engine_test
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    testing::UnitTest::GetInstance()->listeners().Append(new ValidationGate);
+    const int result = RUN_ALL_TESTS();
+    const uint32_t before = engine::validationMessageTotal();
+    engine_test::destroyDevices();
+    return engine::validationMessageTotal() == before ? result : EXIT_FAILURE;
+}

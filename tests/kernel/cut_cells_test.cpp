@@ -1,0 +1,68 @@
+// cut_cells_exact against the reference diagram: the same neighbors and the same vertices, cell by cell.
+#include "tests/hard/hard_sites.h"
+#include "tests/kernel/device_cells.h"
+
+namespace kernel_test {
+namespace {
+
+// Names the first few cells that differ, and in what.
+void expectSameDiagram(const reference::SiteSet& set, const DeviceCells& device) {
+    EXPECT_EQ(device.unfinished, 0u);
+    const std::vector<reference::VoronoiCell> expected = reference::cutAllCells(set);
+    ASSERT_EQ(device.cells.size(), expected.size());
+    uint32_t different = 0;
+    for (size_t k = 0; k < expected.size(); ++k) {
+        const bool same =
+            device.cells[k].neighbors == expected[k].neighbors && device.cells[k].vertices == expected[k].vertices;
+        if (same) continue;
+        if (++different <= 3)
+            ADD_FAILURE() << "cell " << k << " has " << device.cells[k].neighbors.size() << " faces and "
+                          << device.cells[k].vertices.size() << " vertices; " << expected[k].neighbors.size() << " and "
+                          << expected[k].vertices.size() << " are right";
+    }
+    EXPECT_EQ(different, 0u) << "cells of " << expected.size() << " are not right";
+    const reference::DiagramAudit audit = reference::auditDiagram(device.cells);
+    EXPECT_EQ(audit.lost_cells, 0u);
+    EXPECT_EQ(audit.one_sided_faces, 0u);
+    EXPECT_EQ(audit.disputed_vertices, 0u);
+    EXPECT_EQ(audit.broken_cells, 0u);
+}
+
+class CutCellsHard : public testing::TestWithParam<size_t> {};
+
+TEST_P(CutCellsHard, GivesTheReferenceDiagram) {
+    const hard::HardSites hard = hard::hardSites()[GetParam()];
+    SCOPED_TRACE(hard.name);
+    const reference::SiteSet set = hard::snapToGrid(hard).set;
+    expectSameDiagram(set, cutOnDevice(set));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CutCellsHard, testing::Range(size_t{0}, size_t{27}));
+
+TEST(CutCells, OfUniformSitesOfManyCounts) {
+    for (const uint32_t count : {1u, 2u, 63u, 64u, 65u, 1234u}) {
+        SCOPED_TRACE(count);
+        const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(count, count)).set;
+        expectSameDiagram(set, cutOnDevice(set));
+    }
+}
+
+TEST(CutCells, OfCrowdsAndLattices) {
+    for (const hard::HardSites& sites :
+         {hard::clusters(8, 40, 1e-3, 3), hard::clusters(3, 100, 1e-5, 4), hard::cubicLattice(6)}) {
+        SCOPED_TRACE(sites.name);
+        const reference::SiteSet set = hard::snapToGrid(sites).set;
+        expectSameDiagram(set, cutOnDevice(set));
+    }
+}
+
+TEST(CutCells, WithManyFacesAreDoneAgainWithMoreRoom) {
+    const reference::SiteSet set = hard::snapToGrid(hard::sphereAroundCenter(150, .3)).set;
+    const DeviceCells device = cutOnDevice(set);
+    expectSameDiagram(set, device);
+    EXPECT_EQ(device.redone, 1u);
+    EXPECT_EQ(device.cells[0].neighbors.size(), 150u);
+}
+
+} // namespace
+} // namespace kernel_test

@@ -1,0 +1,131 @@
+#include "tests/kernel/device_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kernel_test {
+namespace {
+
+using reference::SiteSet;
+
+constexpr uint32_t kMediumPlanes = 256, kMediumCorners = 512, kMediumRoom = 1100;
+constexpr uint32_t kMediumWords = 2 + kMediumPlanes + 2 * kMediumCorners;
+
+struct CutPush {
+    Int4 bins, box_low, box_high;
+    uint32_t cell_count, size_class, raw_base, next_capacity;
+};
+
+CutPush cutPush(const SiteSet& set, const BinnedSites& binned, uint32_t size_class) {
+    const uint32_t n = static_cast<uint32_t>(set.sites.size());
+    const uint32_t queue[3] = {0, n, n + kMediumRoom};
+    const auto corner = [](const reference::GridPoint& p, uint32_t w) {
+        return Int4{p[0], p[1], p[2], static_cast<int32_t>(w)};
+    };
+    return {binned.bins,
+            corner(set.box.lower, queue[size_class]),
+            corner(set.box.upper, queue[size_class + 1]),
+            size_class == 0 ? n : NO_INDEX,
+            size_class,
+            size_class * n * RAW_WORDS,
+            size_class == 0 ? kMediumRoom : 0};
+}
+
+// A cell as the kernels leave it: status, counts, the planes' ids, then corners as triples of plane indices.
+struct RawCell {
+    const uint32_t* words;
+    bool wide;
+    uint32_t planeCount() const { return words[1] & 0xffff; }
+    uint32_t cornerCount() const { return words[1] >> 16; }
+    std::array<uint32_t, 3> corner(uint32_t t) const {
+        const uint32_t* first = words + 2 + (wide ? kMediumPlanes + 2 * t : RAW_PLANES + t);
+        if (wide) return {first[0] & 0xffff, first[0] >> 16, first[1]};
+        return {*first & 0xff, *first >> 8 & 0xff, *first >> 16};
+    }
+};
+
+reference::VoronoiCell decode(uint32_t site, const RawCell& raw, uint32_t site_count) {
+    const auto idOf = [&](uint32_t plane) {
+        const uint32_t id = raw.words[2 + plane];
+        return id >= BOX_BASE ? site_count + id - BOX_BASE : id;
+    };
+    reference::VoronoiCell cell;
+    cell.site = site;
+    for (uint32_t t = 0; t < raw.cornerCount(); ++t) {
+        const auto [a, b, c] = raw.corner(t);
+        reference::VertexName name = {site, idOf(a), idOf(b), idOf(c)};
+        std::sort(name.begin(), name.end());
+        cell.vertices.push_back(name);
+        // A plane that was cut away again has no corner left.
+        for (const uint32_t plane : {a, b, c})
+            cell.neighbors.push_back(idOf(plane));
+    }
+    std::sort(cell.vertices.begin(), cell.vertices.end());
+    std::sort(cell.neighbors.begin(), cell.neighbors.end());
+    cell.neighbors.erase(std::unique(cell.neighbors.begin(), cell.neighbors.end()), cell.neighbors.end());
+    return cell;
+}
+
+} // namespace
+
+BinnedSites binSites(const SiteSet& set) {
+    BinnedSites binned;
+    double volume = 1;
+    for (size_t k = 0; k < 3; ++k)
+        volume *= set.box.upper[k] - set.box.lower[k] + 1.0;
+    const double edge = std::cbrt(2 * volume / static_cast<double>(set.sites.size()));
+    binned.bins[3] = static_cast<int32_t>(std::ceil(edge));
+    for (size_t k = 0; k < 3; ++k)
+        binned.bins[k] = (set.box.upper[k] - set.box.lower[k]) / binned.bins[3] + 1;
+    const auto binOf = [&](const reference::GridPoint& p) {
+        size_t bin = 0;
+        for (size_t k = 3; k-- > 0;)
+            bin = bin * static_cast<size_t>(binned.bins[k]) + static_cast<size_t>((p[k] - set.box.lower[k]) / binned.bins[3]);
+        return bin;
+    };
+    std::vector<std::vector<Int4>> bins(static_cast<size_t>(binned.bins[0]) * static_cast<size_t>(binned.bins[1]) *
+                                        static_cast<size_t>(binned.bins[2]));
+    for (size_t s = 0; s < set.sites.size(); ++s) {
+        const reference::GridPoint& p = set.sites[s];
+        binned.sites.push_back({p[0], p[1], p[2], 0});
+        bins[binOf(p)].push_back({p[0], p[1], p[2], static_cast<int32_t>(s)});
+    }
+    for (const std::vector<Int4>& bin : bins) {
+        binned.bin_start.push_back(static_cast<uint32_t>(binned.bin_sites.size()));
+        binned.bin_sites.insert(binned.bin_sites.end(), bin.begin(), bin.end());
+    }
+    binned.bin_start.push_back(static_cast<uint32_t>(binned.bin_sites.size()));
+    return binned;
+}
+
+DeviceCells cutOnDevice(const SiteSet& set) {
+    const uint32_t n = static_cast<uint32_t>(set.sites.size());
+    const BinnedSites binned = binSites(set);
+    Counts counts;
+    counts[COUNT_SITES] = n;
+    const engine::Buffer sites = bufferOf(binned.sites), bin_start = bufferOf(binned.bin_start);
+    const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(n + kMediumRoom + 1);
+    const engine::Buffer raw = blankBuffer<uint32_t>(n * RAW_WORDS + kMediumRoom * kMediumWords), at = blankBuffer<Word2>(n);
+    const engine::Buffer store = blankBuffer<uint32_t>(kMediumRoom * kMediumCorners * 17);
+    const auto record = [&](engine::Commands& commands) {
+        commands.dispatchGroups(kernel("cut_cells_exact"), n, cutPush(set, binned, 0),
+                                {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
+        commands.dispatchGroups(kernel("publish_count"), 1, Word2{COUNT_EXACT_MEDIUM, kMediumRoom},
+                                {counts.words, counts.args});
+        commands.dispatchIndirect(kernel("cut_cells_exact_medium"),
+                                  engine::BufferView(counts.args).sub(36 * COUNT_EXACT_MEDIUM + 24, 12),
+                                  cutPush(set, binned, 1), {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
+    };
+    onDevice(record);
+    DeviceCells result;
+    result.redone = counts[COUNT_EXACT_MEDIUM];
+    for (uint32_t s = 0; s < n; ++s) {
+        const Word2 place = at.mappedAs<Word2>()[s];
+        const RawCell cell{raw.mappedAs<uint32_t>() + place[0], place[1] != 0};
+        if (cell.words[0] != CELL_OK) ++result.unfinished;
+        result.cells.push_back(decode(s, cell, n));
+    }
+    return result;
+}
+
+} // namespace kernel_test

@@ -1,0 +1,26 @@
+// Runs the cell kernels on a set of sites and reads their cells back in the oracle's terms.
+#pragma once
+
+#include "tests/kernel/lab.h"
+#include "tests/reference/voronoi.h"
+
+#include <vector>
+
+namespace kernel_test {
+
+// The sites sorted into cubic bins over the box, as the kernels search them.
+struct BinnedSites {
+    Int4 bins = {1, 1, 1, 1};           // per axis; the last is a bin's edge
+    std::vector<Int4> sites, bin_sites; // by id; bin by bin with the id last
+    std::vector<uint32_t> bin_start;
+};
+BinnedSites binSites(const reference::SiteSet& set);
+
+struct DeviceCells {
+    std::vector<reference::VoronoiCell> cells; // site, neighbors and vertices
+    uint32_t unfinished = 0;                   // cells whose status is not CELL_OK
+    uint32_t redone = 0;                       // by a kernel with more room
+};
+DeviceCells cutOnDevice(const reference::SiteSet& set);
+
+} // namespace kernel_test

@@ -1,0 +1,5 @@
+# Kernels that only the tests use: each calls functions of shaders-spirv/lib on lists of inputs.
+kernel(wide_ops.comp)
+kernel(corner_cuts.comp)
+kernel(mesh_signs.comp)
+kernel(fractions.comp)

@@ -1,0 +1,29 @@
+# The bench of `brittle bench`. Voro++ is part of it where Debian's voro++-dev is installed. CGAL (libcgal-dev) is a program
+# of its own, brittle_peer_cgal, outside the default build: it takes longer to compile than all the rest.
+find_path(VOROPP_HEADERS voro++.hh PATH_SUFFIXES voro++)
+find_library(VOROPP_LIBRARY voro++)
+find_path(CGAL_HEADERS CGAL/Surface_mesh.h)
+find_library(GMP_LIBRARY gmp)
+find_library(MPFR_LIBRARY mpfr)
+set(bench_dir ${CMAKE_CURRENT_LIST_DIR})
+
+add_library(brittle_bench_inputs STATIC ${bench_dir}/inputs.cpp ${bench_dir}/peer_voropp.cpp)
+target_link_libraries(brittle_bench_inputs PUBLIC brittle_options)
+if(VOROPP_HEADERS AND VOROPP_LIBRARY)
+    target_compile_definitions(brittle_bench_inputs PRIVATE BRITTLE_PEER_VOROPP)
+    target_include_directories(brittle_bench_inputs SYSTEM PRIVATE ${VOROPP_HEADERS})
+    target_link_libraries(brittle_bench_inputs PRIVATE ${VOROPP_LIBRARY})
+endif()
+
+if(TARGET brittle_module)
+    add_library(brittle_bench STATIC ${bench_dir}/bench.cpp ${bench_dir}/bench_cells.cpp ${bench_dir}/bench_shatter.cpp
+        ${bench_dir}/our_side.cpp ${bench_dir}/peer_cgal.cpp)
+    target_link_libraries(brittle_bench PUBLIC brittle_module nlohmann_json::nlohmann_json PRIVATE brittle_bench_inputs)
+endif()
+
+if(CGAL_HEADERS AND GMP_LIBRARY AND MPFR_LIBRARY AND VOROPP_HEADERS AND VOROPP_LIBRARY)
+    add_executable(brittle_peer_cgal EXCLUDE_FROM_ALL ${bench_dir}/peer_cgal_main.cpp)
+    target_include_directories(brittle_peer_cgal SYSTEM PRIVATE ${CGAL_HEADERS})
+    target_link_libraries(brittle_peer_cgal PRIVATE brittle_bench_inputs ${MPFR_LIBRARY} ${GMP_LIBRARY})
+    target_compile_options(brittle_peer_cgal PRIVATE -frounding-math)
+endif()

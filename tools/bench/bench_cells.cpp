@@ -1,0 +1,73 @@
+// Voronoi cells of uniform sites in a cube: microseconds a cell, ours and Voro++'s.
+#include "tools/bench/bench.h"
+#include "tools/bench/our_side.h"
+#include "tools/bench/peers.h"
+
+namespace bench {
+namespace {
+
+Model unitCube() {
+    Model cube;
+    for (uint32_t k = 0; k < 8; ++k)
+        cube.vertices.push_back({double(k & 1), double(k >> 1 & 1), double(k >> 2)});
+    cube.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return cube;
+}
+
+// One run of ours. Binning the sites belongs to it, as filling the container belongs to Voro++'s time.
+engine::Result<double> ourCells(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
+                                const std::vector<Point>& sites) {
+    brittle::FractureOptions options;
+    options.given_sites = sites;
+    auto result = fracture.shatter(cube.mesh, cube.topology, options);
+    if (!result) return result.error();
+    return stageMs(*result, {"neighbor_grid", "cut_cells"});
+}
+
+struct Samples {
+    std::vector<double> ours, voropp;
+};
+
+engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
+                                  const std::vector<Point>& sites, uint32_t rounds) {
+    Samples samples;
+    if (auto warm_up = ourCells(fracture, cube, sites); !warm_up) return warm_up.error();
+    for (uint32_t round = 0; round < rounds; ++round) {
+        const auto ms = ourCells(fracture, cube, sites);
+        if (!ms) return ms.error();
+        samples.ours.push_back(*ms);
+        if (const auto peer = voroppCells(sites)) samples.voropp.push_back(peer->ms);
+    }
+    return samples;
+}
+
+nlohmann::json rowOf(uint32_t count, const Samples& samples) {
+    const double ours = median(samples.ours);
+    nlohmann::json row = {{"sites", count}, {"ms", ours}, {"us_per_cell", 1000 * ours / count}};
+    if (samples.voropp.empty()) return row;
+    const double voropp = median(samples.voropp);
+    row["voropp_ms"] = voropp;
+    row["voropp_us_per_cell"] = 1000 * voropp / count;
+    row["times_voropp"] = ours / voropp; // below 1: ours is faster
+    return row;
+}
+
+} // namespace
+
+engine::Result<nlohmann::json> benchCells(engine::Device& device, const BenchOptions& options, const Progress& progress) {
+    auto cube = prepared(unitCube());
+    if (!cube) return cube.error();
+    auto fracture = brittle::Fracture::create(device);
+    if (!fracture) return fracture.error();
+    nlohmann::json rows = nlohmann::json::array();
+    for (const uint32_t count : options.cell_counts) {
+        progress("cells of " + std::to_string(count) + " sites");
+        const auto samples = alternate(**fracture, *cube, uniformSites(count, options.seed), options.rounds);
+        if (!samples) return samples.error();
+        rows.push_back(rowOf(count, *samples));
+    }
+    return rows;
+}
+
+} // namespace bench

@@ -1,0 +1,89 @@
+// A closed model that is not convex, shattered whole: milliseconds, the share of each stage, and CGAL's time for the same.
+#include "tools/bench/bench.h"
+#include "tools/bench/our_side.h"
+#include "tools/bench/peers.h"
+
+#include <map>
+
+namespace bench {
+namespace {
+
+struct Samples {
+    std::vector<double> wall, cgal;
+    std::map<std::string, std::vector<double>> stages;
+    std::vector<std::string> stage_order;
+    size_t fragments = 0;
+};
+
+engine::Result<void> runOurs(brittle::Fracture& fracture, const brittle::PreparedMesh& model, const std::vector<Point>& sites,
+                             Samples& samples) {
+    brittle::FractureOptions options;
+    options.given_sites = sites;
+    auto result = fracture.shatter(model.mesh, model.topology, options);
+    if (!result) return result.error();
+    samples.wall.push_back(result->total_ms);
+    samples.fragments = result->fragments.fragments.size();
+    samples.stage_order.clear();
+    for (const engine::Timing& timing : result->timings) {
+        samples.stages[timing.name].push_back(timing.ms);
+        samples.stage_order.push_back(timing.name);
+    }
+    return {};
+}
+
+nlohmann::json stagesOf(const Samples& samples) {
+    nlohmann::json stages = nlohmann::json::array();
+    double sum = 0;
+    for (const std::string& name : samples.stage_order)
+        sum += median(samples.stages.at(name));
+    for (const std::string& name : samples.stage_order) {
+        const double ms = median(samples.stages.at(name));
+        stages.push_back({{"stage", name}, {"ms", ms}, {"share", sum > 0 ? ms / sum : 0}});
+    }
+    return stages;
+}
+
+nlohmann::json rowOf(uint32_t count, size_t triangles, const Samples& samples) {
+    const double ours = median(samples.wall);
+    nlohmann::json row = {{"sites", count},
+                          {"triangles", triangles},
+                          {"fragments", samples.fragments},
+                          {"ms", ours},
+                          {"stages", stagesOf(samples)}};
+    if (samples.cgal.empty()) return row;
+    row["cgal_ms"] = median(samples.cgal);
+    row["times_cgal"] = ours / median(samples.cgal); // below 1: ours is faster
+    return row;
+}
+
+engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& model, uint32_t count,
+                                  const BenchOptions& options) {
+    const std::vector<Point> sites = uniformSites(count, options.seed);
+    Samples warm_up, samples;
+    if (auto done = runOurs(fracture, model, sites, warm_up); !done) return done.error();
+    for (uint32_t round = 0; round < options.rounds; ++round) {
+        if (auto done = runOurs(fracture, model, sites, samples); !done) return done.error();
+        if (count > options.peer_shatter_limit) continue;
+        if (const auto peer = cgalShatter(options.sphere_level, count, options.seed)) samples.cgal.push_back(peer->ms);
+    }
+    return samples;
+}
+
+} // namespace
+
+engine::Result<nlohmann::json> benchShatter(engine::Device& device, const BenchOptions& options, const Progress& progress) {
+    auto model = prepared(bumpySphere(options.sphere_level));
+    if (!model) return model.error();
+    auto fracture = brittle::Fracture::create(device);
+    if (!fracture) return fracture.error();
+    nlohmann::json rows = nlohmann::json::array();
+    for (const uint32_t count : options.shatter_counts) {
+        progress("whole shatter into " + std::to_string(count) + " cells");
+        const auto samples = alternate(**fracture, *model, count, options);
+        if (!samples) return samples.error();
+        rows.push_back(rowOf(count, model->mesh.triangles.size(), *samples));
+    }
+    return rows;
+}
+
+} // namespace bench

@@ -1,0 +1,20 @@
+// What the subcommands have in common. Each adds itself to the app and leaves its exit code where main returns it.
+#pragma once
+
+#include "engine/result.h"
+
+#include <CLI/CLI.hpp>
+
+namespace cli {
+
+enum ExitCode { kOk = 0, kInternalError = 1, kBadInput = 2, kCapacity = 3, kDeviceError = 4 };
+
+using AddCommand = void (*)(CLI::App& app, int& exit_code);
+void addShatter(CLI::App& app, int& exit_code);
+void addDevices(CLI::App& app, int& exit_code);
+void addDoctor(CLI::App& app, int& exit_code);
+
+// Prints "brittle: MESSAGE" as one line on stderr.
+int fail(const engine::Error& error);
+
+} // namespace cli

@@ -1,0 +1,41 @@
+// brittle: shatters models from the command line. Every subcommand stands in a file of its own; a new one is a row below.
+#include "tools/brittle/command.h"
+
+#include <cstdio>
+
+namespace {
+
+constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor};
+
+constexpr const char* kFooter = "Examples:\n"
+                                "  brittle shatter vase.stl -o pieces.glb\n"
+                                "  brittle shatter builtin:ring -o ring.glb --sites 40 --picture ring.png --explode 0.3\n"
+                                "  brittle doctor vase.stl\n"
+                                "\n"
+                                "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
+
+// CLI11 explains usage errors over several lines; one is enough.
+int badUsage(const CLI::ParseError& error) {
+    return cli::fail({engine::ErrorCode::BadInput, std::string(error.what()) + "; see brittle --help"});
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Shatters closed meshes into closed fragments, on the GPU.", "brittle"};
+    app.require_subcommand(1);
+    app.footer(kFooter);
+    int exit_code = cli::kOk;
+    for (const cli::AddCommand add : kCommands)
+        add(app, exit_code);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return error.get_exit_code() == 0 ? app.exit(error) : badUsage(error);
+    } catch (const std::exception& error) {
+        return cli::fail({engine::ErrorCode::Internal, error.what()});
+    }
+    // What was promised on stdout has to have arrived there: a full disk must not look like success.
+    if (std::fflush(stdout) != 0) return cli::fail({engine::ErrorCode::BadInput, "the output cannot be written"});
+    return exit_code;
+}

@@ -1,0 +1,170 @@
+#include "tools/brittle/shatter.h"
+
+#include "modules/brittle/export/glb.h"
+#include "modules/brittle/export/output_file.h"
+#include "tools/brittle/model.h"
+#include "tools/brittle/picture.h"
+#include "tools/brittle/progress.h"
+#include "tools/brittle/sites_file.h"
+
+#include <chrono>
+#include <optional>
+
+namespace cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// The steps of one run, in order. Each takes what it needs from those before it and stops the run where it fails.
+class Run {
+public:
+    explicit Run(const ShatterOptions& options) : options_(options) {}
+    engine::Result<ShatterOutcome> all();
+
+private:
+    engine::Result<void> openOutputs();
+    engine::Result<void> readModel();
+    engine::Result<void> checkModel();
+    engine::Result<void> readSites();
+    engine::Result<void> openDevice();
+    engine::Result<void> breakModel();
+    engine::Result<void> verify();
+    engine::Result<void> writeFragments();
+    engine::Result<void> writePicture();
+    engine::Result<void> commitOutputs();
+    engine::Error aboutModel(const engine::Error& error) const { return {error.code, options_.model + ": " + error.message}; }
+
+    const ShatterOptions& options_;
+    ShatterOutcome outcome_;
+    std::optional<brittle::OutputFile> output_, picture_;
+    std::optional<brittle::PreparedMesh> model_;
+    std::vector<brittle::Double3> given_sites_;
+    std::unique_ptr<engine::Device> device_;
+};
+
+engine::Result<ShatterOutcome> Run::all() {
+    struct Step {
+        const char* name;     // in the list of times
+        const char* progress; // nullptr for what takes no time
+        engine::Result<void> (Run::*run)();
+    };
+    static constexpr Step kSteps[] = {
+        {"open", nullptr, &Run::openOutputs},
+        {"sites", nullptr, &Run::readSites},
+        {"import", "reading the model", &Run::readModel},
+        {"check", "checking the model", &Run::checkModel},
+        {"device", "opening the device", &Run::openDevice},
+        {"fracture", "breaking", &Run::breakModel},
+        {"verify", "verifying", &Run::verify},
+        {"export", "writing", &Run::writeFragments},
+        {"picture", "drawing", &Run::writePicture},
+        {"commit", nullptr, &Run::commitOutputs},
+    };
+    const Clock::time_point start = Clock::now();
+    for (const Step& step : kSteps) {
+        if (step.progress) showProgress(step.progress);
+        const Clock::time_point began = Clock::now();
+        if (auto done = (this->*step.run)(); !done) return done.error();
+        if (step.progress) outcome_.ms.emplace_back(step.name, millisecondsSince(began));
+    }
+    clearProgress();
+    outcome_.total_ms = millisecondsSince(start);
+    return std::move(outcome_);
+}
+
+engine::Result<void> Run::openOutputs() {
+    const auto open = [](const std::string& path, std::optional<brittle::OutputFile>& file) -> engine::Result<void> {
+        auto created = brittle::OutputFile::create(path);
+        if (!created) return created.error();
+        file.emplace(std::move(*created));
+        return {};
+    };
+    if (options_.picture == options_.output)
+        return engine::Error{engine::ErrorCode::BadInput, options_.output + ": fragments and picture need a file each"};
+    if (auto opened = open(options_.output, output_); !opened) return opened.error();
+    if (options_.picture.empty()) return {};
+    return open(options_.picture, picture_);
+}
+
+engine::Result<void> Run::readModel() {
+    auto model = loadModel(options_.model);
+    if (!model) return model.error();
+    model_.emplace(std::move(*model));
+    return {};
+}
+
+engine::Result<void> Run::checkModel() {
+    auto report = brittle::checkMesh(model_->mesh, model_->topology);
+    if (!report) return aboutModel(report.error());
+    outcome_.model = std::move(*report);
+    return {};
+}
+
+engine::Result<void> Run::readSites() {
+    if (options_.sites_file.empty()) return {};
+    auto sites = readSitesFile(options_.sites_file);
+    if (!sites) return sites.error();
+    given_sites_ = std::move(*sites);
+    return {};
+}
+
+engine::Result<void> Run::openDevice() {
+    auto device = engine::Device::create({.select = options_.device});
+    if (!device) return device.error();
+    device_ = std::move(*device);
+    outcome_.device = device_->name();
+    return {};
+}
+
+engine::Result<void> Run::breakModel() {
+    brittle::FractureOptions options;
+    options.site_count = options_.sites;
+    options.seed = options_.seed;
+    options.given_sites = given_sites_;
+    auto fracture = brittle::Fracture::create(*device_);
+    if (!fracture) return fracture.error();
+    auto result = (*fracture)->shatter(model_->mesh, model_->topology, options);
+    if (!result) return aboutModel(result.error());
+    outcome_.result = std::move(*result);
+    outcome_.ms.emplace_back("setup", outcome_.result.setup_ms);
+    for (const engine::Timing& timing : outcome_.result.timings)
+        outcome_.ms.emplace_back(timing.name, timing.ms);
+    return {};
+}
+
+// JSON reports the errors in any case; only --verify makes them a reason to stop.
+engine::Result<void> Run::verify() {
+    if (!options_.verify && !options_.as_json) return {};
+    const brittle::FractureResult& result = outcome_.result;
+    outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
+    const std::string violation = outcome_.contract.violation();
+    if (!options_.verify || violation.empty()) return {};
+    return aboutModel({engine::ErrorCode::Internal, "the fragments break their contract: " + violation + "; please report it"});
+}
+
+engine::Result<void> Run::writeFragments() {
+    const auto bytes = brittle::encodeGlb(outcome_.result.fragments);
+    if (!bytes) return bytes.error();
+    return output_->write(*bytes);
+}
+
+engine::Result<void> Run::writePicture() {
+    if (!picture_) return {};
+    return drawFragments(*device_, outcome_.result.fragments, options_.explode, picture_->temporaryPath());
+}
+
+engine::Result<void> Run::commitOutputs() {
+    if (picture_)
+        if (auto committed = picture_->commit(); !committed) return committed.error();
+    return output_->commit();
+}
+
+} // namespace
+
+engine::Result<ShatterOutcome> shatter(const ShatterOptions& options) { return Run(options).all(); }
+
+} // namespace cli

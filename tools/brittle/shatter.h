@@ -1,0 +1,37 @@
+// brittle shatter, apart from its options and its output.
+#pragma once
+
+#include "modules/brittle/fracture/fracture.h"
+#include "modules/brittle/fracture/verify.h"
+#include "modules/brittle/mesh/check.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+struct ShatterOptions {
+    std::string model, output, device;
+    std::string sites_file; // instead of a number of sites
+    std::string picture;    // of the fragments, moved apart
+    double explode = 0;
+    uint32_t sites = 100;
+    uint64_t seed = 1;
+    bool verify = false;  // refuse fragments that break their contract
+    bool as_json = false;
+};
+
+struct ShatterOutcome {
+    std::string device;
+    brittle::MeshReport model;
+    brittle::FractureResult result;
+    brittle::ContractReport contract; // where it was asked for
+    std::vector<std::pair<std::string, double>> ms; // by what was done, in order; the stages on the device among them
+    double total_ms = 0;
+};
+
+// Writes the output and, if asked, the picture: both or none.
+engine::Result<ShatterOutcome> shatter(const ShatterOptions& options);
+
+} // namespace cli

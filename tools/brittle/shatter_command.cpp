@@ -1,0 +1,103 @@
+// brittle shatter: its options and what it prints.
+#include "modules/brittle/mesh/format.h"
+#include "tools/brittle/command.h"
+#include "tools/brittle/shatter.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+using brittle::formatCount;
+using brittle::formatNumber;
+
+nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
+    const brittle::FractureCounts& counts = outcome.result.counts;
+    nlohmann::ordered_json ms = {{"total", outcome.total_ms}};
+    for (const auto& [name, value] : outcome.ms)
+        ms[name] = value;
+    return {
+        {"device", outcome.device},
+        {"model",
+         {{"vertices", outcome.model.vertices},
+          {"triangles", outcome.model.triangles},
+          {"components", outcome.model.components},
+          {"volume", outcome.model.measures.volume},
+          {"area", outcome.model.measures.area}}},
+        {"sites", {{"requested", counts.sites_requested}, {"used", counts.sites_used}, {"welded", counts.sites_welded}}},
+        {"cells",
+         {{"ok", counts.cells_ok},
+          {"empty", counts.cells_empty},
+          {"merged", counts.cells_merged},
+          {"refused", counts.cells_refused}}},
+        {"fragments", outcome.result.fragments.fragments.size()},
+        {"volume_error", outcome.contract.volume_error},
+        {"area_error", outcome.contract.area_error},
+        {"open_edges", outcome.contract.open_edges},
+        {"unpaired_inner_triangles", outcome.contract.unpaired_inner_triangles},
+        {"exact_cells", {{"total", counts.exact_total}, {"redone", counts.exact_redone}}},
+        {"ms", ms},
+    };
+}
+
+void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
+    const brittle::FractureCounts& counts = outcome.result.counts;
+    std::printf("device     %s\n", outcome.device.c_str());
+    std::printf("model      %s: %s, %s, volume %s\n", options.model.c_str(),
+                formatCount(outcome.model.triangles, "triangle").c_str(), formatCount(outcome.model.components, "part").c_str(),
+                formatNumber(outcome.model.measures.volume).c_str());
+    std::printf("sites      %u asked for, %u used, %u welded\n", counts.sites_requested, counts.sites_used, counts.sites_welded);
+    std::printf("cells      %u ok, %u empty, %u merged, %u refused; %u of %u done again exactly\n", counts.cells_ok,
+                counts.cells_empty, counts.cells_merged, counts.cells_refused, counts.exact_redone, counts.exact_total);
+    std::printf("fragments  %zu, in %s\n", outcome.result.fragments.fragments.size(), options.output.c_str());
+    if (!options.picture.empty()) std::printf("picture    %s\n", options.picture.c_str());
+    if (options.verify)
+        std::printf("verified   volume error %.2g, area error %.2g, every fragment closed, connected and within its cell\n",
+                    outcome.contract.volume_error, outcome.contract.area_error);
+    std::printf("time       %.1f ms in all\n", outcome.total_ms);
+    for (const auto& [name, ms] : outcome.ms)
+        std::printf("  %-22s %9.2f ms\n", name.c_str(), ms);
+}
+
+int runShatter(const ShatterOptions& options) {
+    const auto outcome = shatter(options);
+    if (!outcome) return fail(outcome.error());
+    if (options.as_json) std::printf("%s\n", toJson(*outcome).dump(2).c_str());
+    else printText(options, *outcome);
+    return kOk;
+}
+
+constexpr const char* kFooter = "Examples:\n"
+                                "  brittle shatter vase.stl -o pieces.glb --sites 200 --seed 7 --verify\n"
+                                "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
+                                "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
+                                "\n"
+                                "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
+                                "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
+
+} // namespace
+
+void addShatter(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("shatter", "Break a closed model into closed fragments.");
+    command->footer(kFooter);
+    auto options = std::make_shared<ShatterOptions>();
+    command->add_option("MODEL", options->model, "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME")->required();
+    command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")->required();
+    CLI::Option* sites =
+        command->add_option("--sites", options->sites, "how many sites, and so about how many fragments")->capture_default_str();
+    sites->check(CLI::Range(1u, 1u << 24));
+    command->add_option("--seed", options->seed, "another seed breaks it otherwise")->capture_default_str();
+    command->add_option("--sites-file", options->sites_file, "sites from a text file instead")->excludes(sites);
+    command->add_flag("--verify", options->verify, "check the fragments, write nothing where they break their contract");
+    command->add_option("--picture", options->picture, "also draw them into this PNG file");
+    command->add_option("--explode", options->explode, "in the picture, move fragments this many times further from the center")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1000.0));
+    command->add_flag("--json", options->as_json, "print one JSON object, errors measured");
+    command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
+    command->callback([options, &exit_code] { exit_code = runShatter(*options); });
+}
+
+} // namespace cli

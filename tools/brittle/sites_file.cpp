@@ -1,0 +1,35 @@
+#include "tools/brittle/sites_file.h"
+
+#include "modules/brittle/mesh/text_reader.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace cli {
+
+engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& path) {
+    const auto bad = [&](const std::string& message) { return engine::Error{engine::ErrorCode::BadInput, path + ": " + message}; };
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return bad("cannot be opened; check the name");
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    if (file.bad()) return bad("cannot be read; is it a file?");
+    std::vector<brittle::Double3> sites;
+    brittle::TextReader text(bytes);
+    for (std::string_view line = text.nextFullLine('#'); !line.empty(); line = text.nextFullLine('#')) {
+        const auto badLine = [&](const char* what) { return bad("line " + std::to_string(text.line()) + ": " + what); };
+        brittle::Words words(line);
+        brittle::Double3& site = sites.emplace_back();
+        for (double& coordinate : site) {
+            const auto number = words.nextNumber();
+            if (!number) return badLine("a site needs three numbers: x y z");
+            if (!std::isfinite(*number)) return badLine("a coordinate is not a finite number");
+            coordinate = *number;
+        }
+        if (!words.next().empty()) return badLine("more than three numbers; one site a line");
+    }
+    if (sites.empty()) return bad("no sites in it; write one a line as x y z");
+    return sites;
+}
+
+} // namespace cli

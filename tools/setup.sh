@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs what Brittle needs on Debian 12, by package name, as root or with sudo. Does nothing when all of it is there.
+set -euo pipefail
+
+packages=(
+  # compilers and build
+  build-essential cmake ninja-build ccache pkg-config
+  glslang-tools spirv-tools
+  # Vulkan: headers, loader, a CPU device for machines without a GPU, layers for the tests
+  libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
+  # libraries
+  libassimp-dev libcli11-dev libeigen3-dev libstb-dev libtinygltf-dev nlohmann-json3-dev
+  # tests, and the peers of the bench
+  libgtest-dev librapidcheck-dev clang-tidy libcgal-dev libgmp-dev libmpfr-dev voro++-dev
+)
+
+installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+missing=()
+for package in "${packages[@]}"; do
+  installed "$package" || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null; then
+  as_root=(sudo)
+else
+  echo "setup: run as root, or install sudo; missing packages: ${missing[*]}" >&2
+  exit 1
+fi
+
+echo "setup: installing ${missing[*]}"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq </dev/null
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" </dev/null
