@@ -33,6 +33,7 @@ Result<Buffer> Buffer::create(Device& device, VkDeviceSize size, BufferDomain do
     Buffer buffer;
     buffer.device_ = &device;
     buffer.size_ = size;
+    buffer.usage_ = info.usage;
     buffer.name_ = name;
     const VolkDeviceTable& vk = device.vk();
     const VkResult made = vk.vkCreateBuffer(device.handle(), &info, nullptr, &buffer.handle_);
@@ -60,6 +61,7 @@ void Buffer::swap(Buffer& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);
     std::swap(size_, other.size_);
+    std::swap(usage_, other.usage_);
     std::swap(memory_, other.memory_);
     std::swap(mapped_, other.mapped_);
     std::swap(name_, other.name_);

@@ -31,6 +31,7 @@ public:
 
     VkBuffer handle() const { return handle_; }
     VkDeviceSize size() const { return size_; }
+    VkBufferUsageFlags usage() const { return usage_; }
     const std::string& name() const { return name_; }
     // Upload and Readback only; stays mapped for the life of the buffer.
     std::byte* mapped() const { return mapped_; }
@@ -46,6 +47,7 @@ private:
     Device* device_ = nullptr;
     VkBuffer handle_ = VK_NULL_HANDLE;
     VkDeviceSize size_ = 0;
+    VkBufferUsageFlags usage_ = 0;
     MemoryShare memory_;
     std::byte* mapped_ = nullptr;
     std::string name_;

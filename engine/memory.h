@@ -1,4 +1,4 @@
-// Device memory in a few large blocks, from which buffers and images take their share.
+// Device memory in a few large blocks, from which buffers take their share.
 #pragma once
 
 #include "engine/vulkan.h"
@@ -41,9 +41,9 @@ public:
     void giveBack(const MemoryShare& share);
 
     VkDeviceSize allocatedBytes() const; // in all blocks, used or not
+    Result<uint32_t> pickType(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
 
 private:
-    Result<uint32_t> pickType(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
     Result<MemoryBlock*> addBlock(uint32_t type, VkDeviceSize size);
 
     Device& device_;

@@ -9,6 +9,10 @@
 #define UPDATES(slot, type, name) layout(set = 0, binding = slot, std430) buffer name##_block { type name[]; }
 #define FLAT_KERNEL layout(local_size_x = GROUP_SIZE) in
 
+// A number of turns that the compiler cannot see is a loop that it does not unroll: small loops around large bodies, copied
+// out by a driver, are most of what a first dispatch waits for. Kernels run on grids of depth 1.
+#define ROLLED(n) (uint(n) * gl_NumWorkGroups.z)
+
 uint flatGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 uint flatIndex() { return flatGroup() * GROUP_SIZE + gl_LocalInvocationID.x; }
 

@@ -132,6 +132,17 @@ TEST(Barriers, ForgetThePastRecording) {
     EXPECT_EQ(r.barriers(), 0u);
 }
 
+// The layer would see a barrier that is missing: two recorders that do not know of each other share a command buffer.
+TEST(Barriers, AreMissedBySynchronizationValidation) {
+    if (!synchronizationValidationIsOn()) GTEST_SKIP() << "without synchronization validation nobody would notice";
+    expectValidationMessages(1);
+    Recording r;
+    Commands stranger(device(), r.commands.handle());
+    r.update(r.a);
+    stranger.dispatch(testKernel(device(), "increment"), kCount, NoPush{}, {r.a});
+    finish(r.commands);
+}
+
 TEST(HazardTracker, NamesTheStagesAndWritesToWaitFor) {
     HazardTracker tracker;
     const auto buffer = reinterpret_cast<VkBuffer>(uintptr_t{16});

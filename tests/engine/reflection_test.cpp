@@ -69,7 +69,9 @@ TEST(Reflection, RefusesWhatIsNoModule) {
     const uint32_t noise[] = {1, 2, 3, 4, 5, 6};
     EXPECT_FALSE(reflect(noise));
     const auto words = shaders::engineTestKernels()[0].words;
-    EXPECT_FALSE(reflect(words.first(words.size() - 2)));
+    std::vector<uint32_t> cut_short(words.begin(), words.end());
+    cut_short.push_back(3u << 16); // an instruction of three words
+    EXPECT_FALSE(reflect(cut_short));
     std::vector<uint32_t> endless(words.begin(), words.end());
     endless[5] = 0; // an instruction of no words
     EXPECT_FALSE(reflect(endless));

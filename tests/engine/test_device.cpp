@@ -39,6 +39,11 @@ engine::Device& deviceOf(Kind kind) {
     return *devices[kind]->device;
 }
 
+bool environmentHas(const char* variable, const char* part) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && std::strstr(value, part) != nullptr;
+}
+
 } // namespace
 
 engine::Device& device() { return deviceOf(kFull); }
@@ -89,9 +94,10 @@ void finish(engine::Commands& commands) {
     if (!done) ADD_FAILURE() << done.error().message;
 }
 
-bool validationIsOn() {
-    const char* layers = std::getenv("VK_INSTANCE_LAYERS");
-    return layers != nullptr && std::strstr(layers, "VK_LAYER_KHRONOS_validation") != nullptr;
+bool validationIsOn() { return environmentHas("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"); }
+
+bool synchronizationValidationIsOn() {
+    return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
 }
 
 } // namespace engine_test

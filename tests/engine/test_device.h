@@ -35,6 +35,7 @@ std::vector<uint32_t> countingFrom(uint32_t first, size_t count);
 void finish(engine::Commands& commands);
 // Whether the validation layers are listening, and how many of their messages the running test means to cause.
 bool validationIsOn();
+bool synchronizationValidationIsOn();
 void expectValidationMessages(uint32_t count);
 
 } // namespace engine_test

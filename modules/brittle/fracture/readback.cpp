@@ -60,7 +60,7 @@ void fillCounts(const std::vector<uint32_t>& status, const FractureOptions& opti
     c.cells_merged = status[STATUS_DISSOLVED];
     c.cells_refused = status[STATUS_BAD_CELLS];
     c.exact_total = status[COUNT_SITES];
-    c.exact_redone = status[COUNT_EXACT_MEDIUM] + status[COUNT_EXACT_LARGE];
+    c.exact_redone = status[COUNT_EXACT_SMALL];
     std::vector<bool> filled(c.sites_used, false);
     for (const Fragment& f : result.fragments.fragments)
         if (f.cell < filled.size()) filled[f.cell] = true;

@@ -9,6 +9,11 @@ struct CutPush {
     uint32_t cell_count, size_class, raw_base, next_capacity;
 };
 
+struct FastPush {
+    Int4 bins, box_low, box_high;
+    uint32_t slots;
+};
+
 CutPush cutPush(const Event& e, uint32_t size_class) {
     const EventGrid& g = e.grid;
     const Capacities& c = e.capacity;
@@ -18,7 +23,7 @@ CutPush cutPush(const Event& e, uint32_t size_class) {
     return {g.bins,
             {g.box_low[0], g.box_low[1], g.box_low[2], static_cast<int32_t>(queue[size_class])},
             {g.box_high[0], g.box_high[1], g.box_high[2], static_cast<int32_t>(queue[size_class + 1])},
-            size_class == 0 ? c.sites : NO_INDEX,
+            NO_INDEX,
             size_class,
             base[size_class],
             next[size_class]};
@@ -26,7 +31,13 @@ CutPush cutPush(const Event& e, uint32_t size_class) {
 
 void recordCutting(const Event& e) {
     const auto& b = e.b;
-    e.record.runGroups("cut_cells_exact", e.capacity.sites, cutPush(e, 0),
+    FastPush fast = {e.grid.bins,
+                     {e.grid.box_low[0], e.grid.box_low[1], e.grid.box_low[2], 0},
+                     {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},
+                     e.capacity.sites};
+    e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw});
+    e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
+    e.record.runGroups("cut_cells_exact", e.record.groupsOf(COUNT_EXACT_SMALL), cutPush(e, 0),
                        {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
     e.record.publish(COUNT_EXACT_MEDIUM, e.capacity.exact_medium);
     e.record.runGroups("cut_cells_exact_medium", e.record.groupsOf(COUNT_EXACT_MEDIUM), cutPush(e, 1),

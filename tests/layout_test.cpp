@@ -1,0 +1,104 @@
+// Every struct that C++ and GLSL share lies alike in both: C++ offsets and sizes against those in every built kernel.
+//
+// A struct of a kernel that has the name of a row below must have its members, in order, at its offsets; a struct that is
+// in an array must have the C++ size as its stride. A row that no kernel uses is reported as such.
+#include "engine/reflection.h"
+#include "shaders-spirv/shared/scene.h"
+#include "tests/engine/test_device.h"
+
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Row {
+    std::string name;
+    size_t size = 0;
+    std::vector<engine::ReflectedMember> members;
+};
+
+#define MEMBER(type, member) {#member, offsetof(gpu::type, member)}
+
+const std::vector<Row>& rows() {
+    static const std::vector<Row> kRows = {
+        {"SceneVertex",
+         sizeof(gpu::SceneVertex),
+         {MEMBER(SceneVertex, position), MEMBER(SceneVertex, normal), MEMBER(SceneVertex, uv)}},
+        {"DrawCommand",
+         sizeof(gpu::DrawCommand),
+         {MEMBER(DrawCommand, index_count), MEMBER(DrawCommand, instance_count), MEMBER(DrawCommand, first_index),
+          MEMBER(DrawCommand, vertex_offset), MEMBER(DrawCommand, first_instance)}},
+        {"ObjectMatrix", sizeof(gpu::ObjectMatrix), {MEMBER(ObjectMatrix, model)}},
+        {"Bounds", sizeof(gpu::Bounds), {MEMBER(Bounds, lower), MEMBER(Bounds, upper)}},
+        {"ObjectState",
+         sizeof(gpu::ObjectState),
+         {MEMBER(ObjectState, position), MEMBER(ObjectState, inverse_mass), MEMBER(ObjectState, orientation),
+          MEMBER(ObjectState, velocity), MEMBER(ObjectState, radius), MEMBER(ObjectState, angular_momentum),
+          MEMBER(ObjectState, fragment), MEMBER(ObjectState, inertia), MEMBER(ObjectState, material),
+          MEMBER(ObjectState, flags)}},
+        {"DrawPush",
+         sizeof(gpu::DrawPush),
+         {MEMBER(DrawPush, view_projection), MEMBER(DrawPush, eye), MEMBER(DrawPush, key_direction),
+          MEMBER(DrawPush, outer_color), MEMBER(DrawPush, inner_color)}},
+    };
+    return kRows;
+}
+
+// What differs between a kernel's struct and the row; empty if nothing does.
+std::string difference(const Row& row, const engine::ReflectedStruct& found) {
+    if (found.members.size() != row.members.size()) return "has " + std::to_string(found.members.size()) + " members";
+    for (size_t m = 0; m < row.members.size(); ++m) {
+        const auto& ours = row.members[m];
+        const auto& theirs = found.members[m];
+        if (ours.name != theirs.name) return "has " + theirs.name + " where C++ has " + ours.name;
+        if (ours.offset == theirs.offset) continue;
+        return theirs.name + " is at " + std::to_string(theirs.offset) + ", in C++ at " + std::to_string(ours.offset);
+    }
+    if (found.array_stride == 0 || found.array_stride == row.size) return "";
+    return "has a stride of " + std::to_string(found.array_stride) + ", in C++ of " + std::to_string(row.size);
+}
+
+// Names of the rows that were met.
+std::set<std::string> compare(const shaders::Module& module) {
+    std::set<std::string> met;
+    const auto reflection = engine::reflect(module.words);
+    EXPECT_TRUE(reflection) << module.name;
+    if (!reflection) return met;
+    for (const engine::ReflectedStruct& found : reflection->structs) {
+        for (const Row& row : rows()) {
+            if (found.name != row.name) continue;
+            met.insert(row.name);
+            const std::string differs = difference(row, found);
+            EXPECT_TRUE(differs.empty()) << module.name << ": " << row.name << " " << differs;
+        }
+    }
+    return met;
+}
+
+} // namespace
+
+TEST(Layout, OfSharedStructsIsTheSameInEveryKernel) {
+    std::set<std::string> met;
+    for (const auto modules : {shaders::all(), shaders::engineTestKernels()}) {
+        for (const shaders::Module& module : modules)
+            met.merge(compare(module));
+    }
+    for (const Row& row : rows()) {
+        if (!met.contains(row.name)) std::printf("%s: in no kernel yet\n", row.name.c_str());
+    }
+    EXPECT_TRUE(met.contains("SceneVertex"));
+    EXPECT_TRUE(met.contains("DrawPush"));
+}
+
+TEST(Layout, DifferencesAreFound) {
+    const Row row{"Pair", 12, {{"first", 0}, {"second", 4}}};
+    EXPECT_EQ(difference(row, {"Pair", {{"first", 0}, {"second", 4}}, 12}), "");
+    EXPECT_EQ(difference(row, {"Pair", {{"first", 0}, {"second", 4}}, 0}), "");
+    EXPECT_NE(difference(row, {"Pair", {{"first", 0}, {"second", 8}}, 12}), "");
+    EXPECT_NE(difference(row, {"Pair", {{"first", 0}, {"other", 4}}, 12}), "");
+    EXPECT_NE(difference(row, {"Pair", {{"first", 0}}, 12}), "");
+    EXPECT_NE(difference(row, {"Pair", {{"first", 0}, {"second", 4}}, 16}), "");
+}
