@@ -1,6 +1,7 @@
 #include "engine/camera.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace engine {
@@ -71,32 +72,47 @@ Vec3 keyLight(const Camera& camera) {
     return normalized(light);
 }
 
-// A corner at (x, y, z) in the picture's axes, around the box's center, is inside the picture's cone if the eye is at least
-// max(|x| / tan_x, |y| / tan_y) + z away.
-Camera frameBounds(const Vec3& lower, const Vec3& upper, float aspect, const Vec3& direction) {
+// In the picture's axes a point (x, y, z) around the target is inside the picture's cone if the eye is at least
+// max(|x| / tan_x, |y| / tan_y) + z away from the target.
+Camera framePoints(std::span<const Vec3> points, float aspect, const Vec3& direction) {
     Camera camera;
     const Axes axes = axesOf(direction, camera.up);
-    const float tan_y = std::tan(camera.fov_y / 2), tan_x = tan_y * aspect;
-    Vec3 half;
-    for (size_t k = 0; k < 3; ++k) {
-        camera.target[k] = (lower[k] + upper[k]) / 2;
-        half[k] = (upper[k] - lower[k]) / 2;
+    const std::array<Vec3, 3> rows = {axes.right, axes.up, axes.back};
+    Vec3 lower = {FLT_MAX, FLT_MAX, FLT_MAX}, upper = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    for (const Vec3& p : points) {
+        for (size_t k = 0; k < 3; ++k) {
+            lower[k] = std::min(lower[k], dot(p, rows[k]));
+            upper[k] = std::max(upper[k], dot(p, rows[k]));
+        }
     }
-    float distance = 0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        Vec3 c;
-        for (unsigned k = 0; k < 3; ++k)
-            c[k] = (corner >> k & 1u) != 0 ? half[k] : -half[k];
-        const float side = std::max(std::abs(dot(c, axes.right)) / tan_x, std::abs(dot(c, axes.up)) / tan_y);
-        distance = std::max(distance, kMargin * side + dot(c, axes.back));
-    }
-    const float radius = std::max(std::sqrt(dot(half, half)), 1e-6f);
-    distance = std::max(distance, radius * kMargin);
+    if (points.empty()) lower = upper = {0, 0, 0};
+    Vec3 center;
     for (size_t k = 0; k < 3; ++k)
+        center[k] = (lower[k] + upper[k]) / 2;
+    const float tan_y = std::tan(camera.fov_y / 2), tan_x = tan_y * aspect;
+    const float depth = (upper[2] - lower[2]) / 2;
+    float distance = 0;
+    for (const Vec3& p : points) {
+        const float x = std::abs(dot(p, axes.right) - center[0]), y = std::abs(dot(p, axes.up) - center[1]);
+        distance = std::max(distance, kMargin * std::max(x / tan_x, y / tan_y) + dot(p, axes.back) - center[2]);
+    }
+    distance = std::max({distance, 1.1f * depth, 1e-6f});
+    for (size_t k = 0; k < 3; ++k) {
+        camera.target[k] = center[0] * axes.right[k] + center[1] * axes.up[k] + center[2] * axes.back[k];
         camera.eye[k] = camera.target[k] + distance * axes.back[k];
-    camera.near_plane = std::max(distance - 1.5f * radius, distance * 0.01f);
-    camera.far_plane = distance + 1.5f * radius;
+    }
+    camera.near_plane = std::max(distance - 1.05f * depth, 0.01f * distance);
+    camera.far_plane = distance + 1.05f * depth + 0.01f * distance;
     return camera;
+}
+
+Camera frameBounds(const Vec3& lower, const Vec3& upper, float aspect, const Vec3& direction) {
+    std::array<Vec3, 8> corners;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        for (unsigned k = 0; k < 3; ++k)
+            corners[corner][k] = (corner >> k & 1u) != 0 ? upper[k] : lower[k];
+    }
+    return framePoints(corners, aspect, direction);
 }
 
 } // namespace engine

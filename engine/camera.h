@@ -4,6 +4,7 @@
 #include "shaders-spirv/shared/scene.h"
 
 #include <array>
+#include <span>
 
 namespace engine {
 
@@ -24,7 +25,11 @@ struct Camera {
 // Towards a light above the left shoulder of whoever looks; unit length.
 Vec3 keyLight(const Camera& camera);
 
-// Sees the whole box as large as it fits, from `direction` (from the box towards the eye; any length but 0).
-Camera frameBounds(const Vec3& lower, const Vec3& upper, float aspect, const Vec3& direction = {0.55f, 0.45f, 1.0f});
+// Sees all points as large as they fit, from `direction` (from the points towards the eye; any length but 0).
+constexpr Vec3 kFromTheFront = {0.55f, 0.45f, 1.0f};
+Camera framePoints(std::span<const Vec3> points, float aspect, const Vec3& direction = kFromTheFront);
+
+// The same for a box. Looser than the corners of many small boxes.
+Camera frameBounds(const Vec3& lower, const Vec3& upper, float aspect, const Vec3& direction = kFromTheFront);
 
 } // namespace engine

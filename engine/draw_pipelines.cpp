@@ -33,7 +33,8 @@ std::array<VkSubpassDependency, 2> dependencies() {
     constexpr VkAccessFlags kReads = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
     return {{{VK_SUBPASS_EXTERNAL, 0, kColor | kDepth | VK_PIPELINE_STAGE_TRANSFER_BIT, kColor | kDepth, kWrites,
               kWrites | kReads, 0},
-             {0, VK_SUBPASS_EXTERNAL, kColor, VK_PIPELINE_STAGE_TRANSFER_BIT, kWrites, VK_ACCESS_TRANSFER_READ_BIT, 0}}};
+             {0, VK_SUBPASS_EXTERNAL, kColor, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+              VK_ACCESS_TRANSFER_READ_BIT, 0}}};
 }
 
 } // namespace

@@ -23,7 +23,7 @@ struct DrawScene {
 
 // Colors are linear.
 struct Look {
-    Vec3 outer_color = {0.64f, 0.60f, 0.53f}; // light stone
+    Vec3 outer_color = {0.70f, 0.64f, 0.54f}; // light stone
     Vec3 inner_color = {0.60f, 0.20f, 0.07f}; // fired clay
     float tint = 0.06f;                       // how far the colors of the fragments differ, at most
     float light = 1.0f;

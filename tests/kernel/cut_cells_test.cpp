@@ -1,4 +1,4 @@
-// cut_cells_exact against the reference diagram: the same neighbors and the same vertices, cell by cell.
+// cut_cells and cut_cells_exact against the reference diagram: the same neighbors and the same vertices, cell by cell.
 #include "tests/hard/hard_sites.h"
 #include "tests/kernel/device_cells.h"
 
@@ -44,7 +44,15 @@ TEST(CutCells, OfUniformSitesOfManyCounts) {
         SCOPED_TRACE(count);
         const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(count, count)).set;
         expectSameDiagram(set, cutOnDevice(set));
+        if (count < 100) expectSameDiagram(set, cutOnDevice(set, Path::Exact));
     }
+}
+
+TEST(CutCells, OfUniformSitesAreMostlyDecidedByTheFilter) {
+    const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(10'000, 1)).set;
+    const DeviceCells device = cutOnDevice(set);
+    expectSameDiagram(set, device);
+    EXPECT_LT(device.undecided, 500u);
 }
 
 TEST(CutCells, OfCrowdsAndLattices) {

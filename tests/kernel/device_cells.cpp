@@ -16,7 +16,12 @@ struct CutPush {
     uint32_t cell_count, size_class, raw_base, next_capacity;
 };
 
-CutPush cutPush(const SiteSet& set, const BinnedSites& binned, uint32_t size_class) {
+struct FilterPush {
+    Int4 bins, box_low, box_high;
+    uint32_t slots;
+};
+
+CutPush cutPush(const SiteSet& set, const BinnedSites& binned, uint32_t size_class, Path path) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
     const uint32_t queue[3] = {0, n, n + kMediumRoom};
     const auto corner = [](const reference::GridPoint& p, uint32_t w) {
@@ -25,7 +30,7 @@ CutPush cutPush(const SiteSet& set, const BinnedSites& binned, uint32_t size_cla
     return {binned.bins,
             corner(set.box.lower, queue[size_class]),
             corner(set.box.upper, queue[size_class + 1]),
-            size_class == 0 ? n : NO_INDEX,
+            size_class == 0 && path == Path::Exact ? n : NO_INDEX,
             size_class,
             size_class * n * RAW_WORDS,
             size_class == 0 ? kMediumRoom : 0};
@@ -66,17 +71,25 @@ reference::VoronoiCell decode(uint32_t site, const RawCell& raw, uint32_t site_c
     return cell;
 }
 
+// Cubic bins, as small as they can be with two sites to each of them.
+Int4 binsFor(const SiteSet& set) {
+    const double wanted = std::max(1.0, static_cast<double>(set.sites.size()) / 2);
+    for (double edge = 1;; edge = std::ceil(edge * 1.02)) {
+        Int4 bins = {0, 0, 0, static_cast<int32_t>(edge)};
+        double total = 1;
+        for (size_t k = 0; k < 3; ++k) {
+            bins[k] = (set.box.upper[k] - set.box.lower[k]) / bins[3] + 1;
+            total *= bins[k];
+        }
+        if (total <= wanted) return bins;
+    }
+}
+
 } // namespace
 
 BinnedSites binSites(const SiteSet& set) {
     BinnedSites binned;
-    double volume = 1;
-    for (size_t k = 0; k < 3; ++k)
-        volume *= set.box.upper[k] - set.box.lower[k] + 1.0;
-    const double edge = std::cbrt(2 * volume / static_cast<double>(set.sites.size()));
-    binned.bins[3] = static_cast<int32_t>(std::ceil(edge));
-    for (size_t k = 0; k < 3; ++k)
-        binned.bins[k] = (set.box.upper[k] - set.box.lower[k]) / binned.bins[3] + 1;
+    binned.bins = binsFor(set);
     const auto binOf = [&](const reference::GridPoint& p) {
         size_t bin = 0;
         for (size_t k = 3; k-- > 0;)
@@ -98,7 +111,7 @@ BinnedSites binSites(const SiteSet& set) {
     return binned;
 }
 
-DeviceCells cutOnDevice(const SiteSet& set) {
+DeviceCells cutOnDevice(const SiteSet& set, Path path) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
     const BinnedSites binned = binSites(set);
     Counts counts;
@@ -107,17 +120,28 @@ DeviceCells cutOnDevice(const SiteSet& set) {
     const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(n + kMediumRoom + 1);
     const engine::Buffer raw = blankBuffer<uint32_t>(n * RAW_WORDS + kMediumRoom * kMediumWords), at = blankBuffer<Word2>(n);
     const engine::Buffer store = blankBuffer<uint32_t>(kMediumRoom * kMediumCorners * 17);
+    const auto publish = [&](engine::Commands& commands, uint32_t count, uint32_t room) {
+        commands.dispatchGroups(kernel("publish_count"), 1, Word2{count, room}, {counts.words, counts.args});
+        return engine::BufferView(counts.args).sub(36 * count + 24, 12);
+    };
     const auto record = [&](engine::Commands& commands) {
-        commands.dispatchGroups(kernel("cut_cells_exact"), n, cutPush(set, binned, 0),
-                                {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
-        commands.dispatchGroups(kernel("publish_count"), 1, Word2{COUNT_EXACT_MEDIUM, kMediumRoom},
-                                {counts.words, counts.args});
-        commands.dispatchIndirect(kernel("cut_cells_exact_medium"),
-                                  engine::BufferView(counts.args).sub(36 * COUNT_EXACT_MEDIUM + 24, 12),
-                                  cutPush(set, binned, 1), {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
+        const auto& [low, high] = set.box;
+        const CutPush small = cutPush(set, binned, 0, path), medium = cutPush(set, binned, 1, path);
+        if (path == Path::Filtered) {
+            const FilterPush filter = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n};
+            commands.dispatch(kernel("cut_cells"), n, filter, {counts.words, bin_start, bin_sites, queue, raw, at});
+            commands.dispatchIndirect(kernel("cut_cells_exact"), publish(commands, COUNT_EXACT_SMALL, n), small,
+                                      {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
+        } else {
+            commands.dispatchGroups(kernel("cut_cells_exact"), n, small,
+                                    {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
+        }
+        commands.dispatchIndirect(kernel("cut_cells_exact_medium"), publish(commands, COUNT_EXACT_MEDIUM, kMediumRoom), medium,
+                                  {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
     };
     onDevice(record);
     DeviceCells result;
+    result.undecided = counts[COUNT_EXACT_SMALL];
     result.redone = counts[COUNT_EXACT_MEDIUM];
     for (uint32_t s = 0; s < n; ++s) {
         const Word2 place = at.mappedAs<Word2>()[s];

@@ -16,11 +16,17 @@ struct BinnedSites {
 };
 BinnedSites binSites(const reference::SiteSet& set);
 
+enum class Path {
+    Filtered, // as in a fracture: fp32 first, what is not certain again in integers
+    Exact     // in integers from the start
+};
+
 struct DeviceCells {
     std::vector<reference::VoronoiCell> cells; // site, neighbors and vertices
     uint32_t unfinished = 0;                   // cells whose status is not CELL_OK
-    uint32_t redone = 0;                       // by a kernel with more room
+    uint32_t undecided = 0;                    // left over by the filter
+    uint32_t redone = 0;                       // with more room
 };
-DeviceCells cutOnDevice(const reference::SiteSet& set);
+DeviceCells cutOnDevice(const reference::SiteSet& set, Path path = Path::Filtered);
 
 } // namespace kernel_test

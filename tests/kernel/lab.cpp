@@ -2,29 +2,43 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 namespace kernel_test {
 namespace {
 
-const engine::Kernel& found(engine::KernelLibrary& library, std::string_view name, std::span<const uint32_t> spec) {
-    const auto kernel = library.get(name, spec);
-    if (!kernel) {
-        std::fprintf(stderr, "%s\n", kernel.error().message.c_str());
-        std::exit(EXIT_FAILURE);
+// One library for the kernels of the project, one for those of the tests. Both go before their device does.
+class Libraries : public testing::Environment {
+public:
+    const engine::Kernel& find(bool of_tests, std::string_view name, std::span<const uint32_t> spec) {
+        std::unique_ptr<engine::KernelLibrary>& library = libraries_[of_tests];
+        const auto modules = of_tests ? shaders::kernelTestKernels() : shaders::all();
+        if (!library) library = std::make_unique<engine::KernelLibrary>(engine_test::device(), modules);
+        const auto kernel = library->get(name, spec);
+        if (!kernel) {
+            std::fprintf(stderr, "%s\n", kernel.error().message.c_str());
+            std::exit(EXIT_FAILURE);
+        }
+        return **kernel;
     }
-    return **kernel;
-}
+    void TearDown() override {
+        for (auto& library : libraries_)
+            library.reset();
+    }
+
+private:
+    std::array<std::unique_ptr<engine::KernelLibrary>, 2> libraries_;
+};
+
+// googletest owns it.
+Libraries& libraries = *static_cast<Libraries*>(testing::AddGlobalTestEnvironment(new Libraries));
 
 } // namespace
 
 const engine::Kernel& kernel(std::string_view name, std::initializer_list<uint32_t> spec) {
-    static engine::KernelLibrary library(engine_test::device());
-    return found(library, name, {spec.begin(), spec.size()});
+    return libraries.find(false, name, {spec.begin(), spec.size()});
 }
 
-const engine::Kernel& testKernel(std::string_view name) {
-    static engine::KernelLibrary library(engine_test::device(), shaders::kernelTestKernels());
-    return found(library, name, {});
-}
+const engine::Kernel& testKernel(std::string_view name) { return libraries.find(true, name, {}); }
 
 } // namespace kernel_test

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <thread>
 #include <unistd.h>
 
 using namespace brittle;
@@ -196,8 +197,8 @@ TEST(Isolation, SurvivesWhateverTheWorkDoes) {
     EXPECT_FALSE(runIsolated([]() -> std::string { _exit(0); }));
     EXPECT_FALSE(runIsolated(
         []() -> std::string {
-            for (volatile int spin = 0;; spin = spin + 1) {
-            }
+            for (;;)
+                std::this_thread::yield();
         },
         {.seconds = 1}));
 }

@@ -1,13 +1,12 @@
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/primitives.h"
 #include "modules/brittle/mesh/topology.h"
-#include "tests/support/shared_meshes.h"
 
-#include "modules/brittle/mesh/import.h"
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
-#include <set>
+#include <cmath>
 
 using namespace brittle;
 
@@ -41,7 +40,7 @@ Mesh meshOf(std::vector<Float3> positions, std::vector<Index3> triangles) {
 // Two tetrahedra, one above and one below the edge from vertex 0 to 1, that share nothing but it.
 Mesh twoTetrahedraAtAnEdge() {
     return meshOf({{0, 0, 0}, {1, 0, 0}, {.5f, .5f, 1}, {.5f, -.5f, 1}, {.5f, .5f, -1}, {.5f, -.5f, -1}},
-                  {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {1, 3, 2}, {1, 0, 4}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}});
+                  {{1, 0, 2}, {0, 1, 3}, {2, 0, 3}, {3, 1, 2}, {0, 1, 4}, {1, 0, 5}, {5, 0, 4}, {4, 1, 5}});
 }
 
 } // namespace

@@ -35,7 +35,8 @@ void recordCutting(const Event& e) {
                      {e.grid.box_low[0], e.grid.box_low[1], e.grid.box_low[2], 0},
                      {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},
                      e.capacity.sites};
-    e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw});
+    e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
+    e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
     e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
     e.record.runGroups("cut_cells_exact", e.record.groupsOf(COUNT_EXACT_SMALL), cutPush(e, 0),
                        {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});

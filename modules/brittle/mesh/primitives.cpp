@@ -19,7 +19,7 @@ engine::Error badName(std::string_view name) {
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------
 
-constexpr uint32_t kRingSteps = 160, kSectionSteps = 48, kQuarterTurns = 2;
+constexpr uint32_t kRingSteps = 160, kSectionSteps = 48, kQuarterTurns = 3;
 constexpr double kRingRadius = 1, kSectionRadius = 0.42;
 
 // The section is a square with its corners rounded off: |x|^4 + |y|^4 = 1, at even angles.

@@ -9,7 +9,7 @@
 
 namespace brittle {
 
-// A thick ring of rounded square section that turns by half around itself on its way: not convex, with a hole through it.
+// A thick ring of rounded square section that makes three quarter turns on its way around: not convex, with a hole through it.
 ImportedMesh makeTwistedRing();
 // The unit cube about the origin, 12 triangles, sharp edges.
 ImportedMesh makeCube();

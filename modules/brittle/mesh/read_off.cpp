@@ -100,9 +100,11 @@ engine::Result<void> OffReader::readFace(size_t number) {
     if (!count) return wrong("a face begins with its number of corners");
     corners_.clear();
     for (uint32_t k = 0; k < *count; ++k) {
-        const auto index = words.nextInt<uint64_t>();
-        if (!index && text_.atEnd()) return cutShort("face", number, face_count_);
-        if (!index) return wrong("a face has fewer corners than it says");
+        const std::string_view word = words.next();
+        if (word.empty() && text_.atEnd()) return cutShort("face", number, face_count_);
+        if (word.empty()) return wrong("a face has fewer corners than it says");
+        const auto index = Words(word).nextInt<uint64_t>();
+        if (!index) return wrong("a face holds something that is not a vertex number");
         if (*index >= attributes_.size())
             return wrong("a face refers to vertex " + std::to_string(*index) + " of " + std::to_string(vertex_count_) +
                          ", counted from 0; the file is damaged, export it again");
