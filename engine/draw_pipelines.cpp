@@ -37,6 +37,47 @@ std::array<VkSubpassDependency, 2> dependencies() {
               VK_ACCESS_TRANSFER_READ_BIT, 0}}};
 }
 
+// The fixed stages. Closed pieces are drawn from outside, with depth; the background is one triangle without vertices,
+// behind all.
+struct PipelineState {
+    explicit PipelineState(bool with_vertices) {
+        input.vertexBindingDescriptionCount = with_vertices ? 1 : 0;
+        input.pVertexBindingDescriptions = &binding;
+        input.vertexAttributeDescriptionCount = with_vertices ? 2 : 0;
+        input.pVertexAttributeDescriptions = attributes;
+        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        viewport.viewportCount = viewport.scissorCount = 1;
+        raster.cullMode = with_vertices ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+        raster.lineWidth = 1;
+        samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+        depth.depthTestEnable = depth.depthWriteEnable = with_vertices ? VK_TRUE : VK_FALSE;
+        depth.depthCompareOp = VK_COMPARE_OP_LESS;
+        write.colorWriteMask = 0xf;
+        blend.attachmentCount = 1;
+        blend.pAttachments = &write;
+        dynamic.dynamicStateCount = 2;
+        dynamic.pDynamicStates = dynamic_states;
+    }
+    PipelineState(const PipelineState&) = delete; // points into itself
+    PipelineState& operator=(const PipelineState&) = delete;
+
+    VkVertexInputBindingDescription binding{0, sizeof(gpu::SceneVertex), VK_VERTEX_INPUT_RATE_VERTEX};
+    VkVertexInputAttributeDescription attributes[2] = {
+        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, position)},
+        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, normal)}};
+    VkDynamicState dynamic_states[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineColorBlendAttachmentState write{};
+    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+};
+
 } // namespace
 
 DrawPipelines::~DrawPipelines() {
@@ -124,58 +165,31 @@ Result<VkPipeline> DrawPipelines::createPipeline(std::string_view vertex, std::s
     return pipeline;
 }
 
-// Closed pieces are drawn from outside, with depth; the background is a triangle over everything, behind all.
 Result<VkPipeline> DrawPipelines::assemble(const std::array<VkShaderModule, 2>& modules, bool with_vertices) const {
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_VERTEX_BIT, modules[0], "main", nullptr},
-        {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_FRAGMENT_BIT, modules[1], "main", nullptr}};
-    const VkVertexInputBindingDescription binding{0, sizeof(gpu::SceneVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[] = {
-        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, position)},
-        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, normal)}};
-    VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    input.vertexBindingDescriptionCount = with_vertices ? 1 : 0;
-    input.pVertexBindingDescriptions = &binding;
-    input.vertexAttributeDescriptionCount = with_vertices ? 2 : 0;
-    input.pVertexAttributeDescriptions = attributes;
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    raster.cullMode = with_vertices ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
-    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-    raster.lineWidth = 1;
-    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = depth.depthWriteEnable = with_vertices ? VK_TRUE : VK_FALSE;
-    depth.depthCompareOp = VK_COMPARE_OP_LESS;
-    VkPipelineColorBlendAttachmentState write{};
-    write.colorWriteMask = 0xf;
-    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-    blend.attachmentCount = 1;
-    blend.pAttachments = &write;
-    const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = 2;
-    dynamic.pDynamicStates = dynamic_states;
-
+    VkPipelineShaderStageCreateInfo stages[2] = {};
+    for (size_t i = 0; i < 2; ++i) {
+        stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stages[i].stage = i == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
+        stages[i].module = modules[i];
+        stages[i].pName = "main";
+    }
+    const PipelineState state(with_vertices);
     VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.stageCount = 2;
     info.pStages = stages;
-    info.pVertexInputState = &input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
-    info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamic;
+    info.pVertexInputState = &state.input;
+    info.pInputAssemblyState = &state.assembly;
+    info.pViewportState = &state.viewport;
+    info.pRasterizationState = &state.raster;
+    info.pMultisampleState = &state.samples;
+    info.pDepthStencilState = &state.depth;
+    info.pColorBlendState = &state.blend;
+    info.pDynamicState = &state.dynamic;
     info.layout = layout_;
     info.renderPass = render_pass_;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult made = device_.vk().vkCreateGraphicsPipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline);
+    const VkResult made =
+        device_.vk().vkCreateGraphicsPipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline);
     if (made != VK_SUCCESS) return vulkanError("pipeline of the renderer", made);
     return pipeline;
 }

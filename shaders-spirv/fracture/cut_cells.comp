@@ -71,10 +71,7 @@ void makeCorner(uint slot, uint a, uint b, uint c) {
 
 void measureReach() {
     float furthest = 0.0;
-    for (uint k = 0u; k < top; k += 2u) {
-        vec3 a = corner[k].xyz, b = corner[k + 1u].xyz;
-        furthest = max(furthest, max(dot(a, a), dot(b, b)));
-    }
+    for (uint k = 0u; k < top; k++) furthest = max(furthest, dot(corner[k].xyz, corner[k].xyz));
     reach = furthest * (1.0 + 4.0 * kMaxRelativeError);
 }
 
@@ -108,10 +105,7 @@ void startFromBox(ivec3 site) {
 // Most that any corner may stick out over plane e.
 float furthestOver(vec3 e, float size) {
     float furthest = 0.0;
-    for (uint k = 0u; k < top; k += 2u) {
-        vec4 a = corner[k], b = corner[k + 1u];
-        furthest = max(furthest, max(dot(e, a.xyz) + size * a.w, dot(e, b.xyz) + size * b.w));
-    }
+    for (uint k = 0u; k < top; k++) furthest = max(furthest, dot(e, corner[k].xyz) + size * corner[k].w);
     return furthest;
 }
 
@@ -268,7 +262,7 @@ void main() {
                 id = uint(q.w);
                 float square = dot(e, e);
                 found = !drained && furthestOver(e, length(e)) >= square * (1.0 - kTestError);
-                budget -= min(budget, 4u + count / 8u + top / 2u);
+                budget -= min(budget, 4u + count / 8u + top);
                 drained = drained || budget == 0u;
             }
             if (found) cutBy(e, id);

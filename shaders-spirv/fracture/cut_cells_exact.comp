@@ -25,6 +25,9 @@
 #define NEAR_RINGS 6
 #define NO_CORNER 0xffffffffu
 
+// Places are quotients of exact integers: a few roundings each, then three products and sums in a test. Unit roundoff 2^-23.
+const float kPlaceError = 16.0 / 8388608.0;
+
 layout(local_size_x = LANES) in;
 UPDATES(0, uint, counts);
 READS(1, ivec4, sites);     // by id
@@ -45,12 +48,12 @@ layout(push_constant) uniform Push {
 };
 
 #ifdef GLOBAL_STORE
-#define STORE_WORDS (CORNERS * 17)
+#define STORE_WORDS (CORNERS * 16)
 uint store_base;
 uint loadWord(uint t, uint k) { return store[store_base + k * CORNERS + t]; }
 void saveWord(uint t, uint k, uint v) { store[store_base + k * CORNERS + t] = v; }
 #else
-shared uint corner_store[17 * CORNERS];
+shared uint corner_store[16 * CORNERS];
 uint loadWord(uint t, uint k) { return corner_store[k * CORNERS + t]; }
 void saveWord(uint t, uint k, uint v) { corner_store[k * CORNERS + t] = v; }
 #endif
@@ -61,10 +64,11 @@ shared uvec2 corner_planes[CORNERS]; // a | b << 16, c; NO_CORNER when free
 shared int rim_sum[PLANES];
 shared int rim_squares[PLANES];
 shared uint free_slots[CORNERS];
+shared vec4 corner_place[CORNERS]; // w in fp32 and a bound of its error; zero where free
 shared uint list_key[LIST_SIZE];
 shared uint list_site[LIST_SIZE];
 shared uint scan_sum[LANES];
-shared uint list_count, best_key, best_slot, reach_bits, removed_count;
+shared uint list_count, best_key, best_slot, reach_bits, removed_count, corner_top;
 
 Wide128 loadWide(uint t, uint k) {
     uint64_t lo = uint64_t(loadWord(t, k)) | (uint64_t(loadWord(t, k + 1u)) << 32);
@@ -106,7 +110,9 @@ void makeCorner(uint t, uint a, uint b, uint c) {
     saveWide(t, 4u, corner.moment[1]);
     saveWide(t, 8u, corner.moment[2]);
     saveWide(t, 12u, corner.volume);
-    saveWord(t, 16u, floatBitsToUint(reachOf(corner) * 1.0001));
+    vec3 w = placeOf(corner);
+    corner_place[t] = vec4(w, kPlaceError * (abs(w.x) + abs(w.y) + abs(w.z)));
+    atomicMax(corner_top, t + 1u);
 }
 
 void startFromBox(uint lane, ivec3 site) {
@@ -130,7 +136,8 @@ void measureReach(uint lane) {
     uint reach = 0u;
     for (uint k = 0u; k < CORNER_TURNS; k++) {
         uint t = k * LANES + lane;
-        if (t < CORNERS && corner_planes[min(t, CORNERS - 1u)].y != NO_CORNER) reach = max(reach, loadWord(min(t, CORNERS - 1u), 16u));
+        vec3 w = corner_place[min(t, CORNERS - 1u)].xyz;
+        reach = max(reach, floatBitsToUint(dot(w, w) * 1.0001));
     }
     atomicMax(reach_bits, reach);
 }
@@ -157,7 +164,7 @@ void selectNearest(uint lane) {
     }
     barrier();
     uint key = NO_INDEX, slot = NO_INDEX;
-    for (uint k = 0u; k < LIST_TURNS; k++) {
+    for (uint k = 0u; k * LANES < list_count; k++) {
         uint s = k * LANES + lane;
         uint candidate = s < list_count ? list_key[s] : NO_INDEX;
         slot = candidate < key ? s : slot;
@@ -181,6 +188,7 @@ void removeCorners(uint lane, uint self, Plane e) {
         if (live && cut) {
             atomicAdd(removed_count, 1u);
             corner_planes[t] = uvec2(NO_CORNER);
+            corner_place[t] = vec4(0.0);
             int ia = int(a), ib = int(b), ic = int(c);
             atomicAdd(rim_sum[a], ib - ic);
             atomicAdd(rim_sum[b], ic - ia);
@@ -229,6 +237,23 @@ bool closeRim(uint lane, uint e) {
     return fits;
 }
 
+// Whether a bisector may still reach the cell, a candidate a lane: the cell only shrinks, so a no is for good.
+bool mayReach(vec3 d) {
+    float size = length(d), furthest = 0.0;
+    for (uint k = 0u; k < corner_top; k++) furthest = max(furthest, dot(d, corner_place[k].xyz) + size * corner_place[k].w);
+    return furthest >= dot(d, d) * (1.0 - kPlaceError);
+}
+
+// Strikes out what can no longer cut, a candidate a lane: most candidates end here, and never cost an exact test.
+void sieveList(uint lane, ivec3 site) {
+    uint total = list_count;
+    for (uint k = lane; k < total; k += LANES) {
+        uint listed = list_key[k];
+        if (listed != NO_INDEX && !mayReach(vec3(sites[list_site[k]].xyz - site))) list_key[k] = NO_INDEX;
+    }
+    barrier();
+}
+
 // Lists the sites of one row of bins that may still cut; sites of rings seen before are passed over.
 void listRow(uint lane, uint self, ivec3 site, ivec3 home, uint first, uint last, int seen_ring) {
     float reach = uintBitsToFloat(reach_bits);
@@ -240,7 +265,7 @@ void listRow(uint lane, uint self, ivec3 site, ivec3 home, uint first, uint last
     bool fresh = max(away.x, max(away.y, away.z)) > seen_ring;
     vec3 f = vec3(d);
     float distance = dot(f, f);
-    if (in_row && fresh && uint(q.w) != self && distance <= reach) {
+    if (in_row && fresh && uint(q.w) != self && distance <= reach && mayReach(f)) {
         uint s = atomicAdd(list_count, 1u);
         list_key[s] = floatBitsToUint(distance);
         list_site[s] = uint(q.w);
@@ -274,11 +299,15 @@ void main() {
         }
     }
     for (uint k = 0u; k < CORNER_TURNS; k++) {
-        if (k * LANES + lane < CORNERS) corner_planes[k * LANES + lane] = uvec2(NO_CORNER);
+        if (k * LANES + lane < CORNERS) {
+            corner_planes[k * LANES + lane] = uvec2(NO_CORNER);
+            corner_place[k * LANES + lane] = vec4(0.0);
+        }
     }
     if (lane == 0u) {
         reach_bits = 0u;
         list_count = 0u;
+        corner_top = 0u;
     }
     barrier();
     startFromBox(lane, site);
@@ -294,7 +323,8 @@ void main() {
         // Fill the list: rows of this ring (or, far out, all sites at once), as many as fit.
         int width = 2 * ring + 1;
         uint rows = everything ? 1u : uint(2 * width * width);
-        for (uint guard = 0u; guard < 16384u && row < rows && list_count + LANES <= LIST_SIZE; guard++) {
+        bool room = true;
+        for (uint guard = 0u; guard < 16384u && row < rows && room; guard++) {
             int y = home.y + int(row >> 1) % width - ring, z = home.z + int(row >> 1) / width - ring;
             bool whole = abs(y - home.y) == ring || abs(z - home.z) == ring;
             bool right = (row & 1u) != 0u;
@@ -312,22 +342,22 @@ void main() {
             row += ended ? 1u : 0u;
             row_done = ended ? 0u : row_done;
             barrier();
+            room = list_count + LANES <= LIST_SIZE;
+            barrier();
         }
         // Cut by what is listed, near to far.
         for (uint step = 0u; step < 8192u; step++) {
             selectNearest(lane);
             uint slot = best_slot;
-            bool more = slot != NO_INDEX && uintBitsToFloat(best_key) <= uintBitsToFloat(reach_bits);
+            bool more = slot != NO_INDEX;
             uint id = list_site[min(slot, LIST_SIZE - 1u)];
             barrier();
             if (!more) break;
+            if (lane == 0u) list_key[slot] = NO_INDEX;
             ivec3 d = sites[id].xyz - site;
             int64_t r = int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z);
             Plane e = Plane(d, id, r);
-            if (lane == 0u) {
-                list_key[slot] = NO_INDEX;
-                setPlane(min(plane_count, PLANES - 1u), d, id, r);
-            }
+            if (lane == 0u) setPlane(min(plane_count, PLANES - 1u), d, id, r);
             if (plane_count >= PLANES - 1u) status = CELL_OVERFLOW;
             removeCorners(lane, self, e);
             bool cuts = removed_count != 0u;
@@ -338,6 +368,7 @@ void main() {
             barrier();
             measureReach(lane);
             barrier();
+            sieveList(lane, site);
             if (status != CELL_OK) break;
         }
         barrier();
@@ -348,7 +379,8 @@ void main() {
             seen_ring = ring;
             finished = everything || clear * clear * 0.9999 > uintBitsToFloat(reach_bits);
             ring++;
-            everything = ring > NEAR_RINGS;
+            // A shell of many short rows costs more than one look at every site.
+            everything = ring > NEAR_RINGS || uint(4 * (2 * ring + 1) * (2 * ring + 1)) > counts[COUNT_SITES] / LANES;
             row = 0u;
         }
         finished = finished || status != CELL_OK;

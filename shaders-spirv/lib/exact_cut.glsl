@@ -52,11 +52,10 @@ float wideToFloat(Wide128 a) {
     return negative ? -f : f;
 }
 
-// Squared length of w: twice the distance from the site to the corner, squared.
-float reachOf(Corner t) {
+// w in fp32: correct to a few roundings, since the integers are.
+vec3 placeOf(Corner t) {
     float inverse = 1.0 / wideToFloat(t.volume);
-    vec3 w = vec3(wideToFloat(t.moment[0]), wideToFloat(t.moment[1]), wideToFloat(t.moment[2])) * inverse;
-    return dot(w, w);
+    return vec3(wideToFloat(t.moment[0]), wideToFloat(t.moment[1]), wideToFloat(t.moment[2])) * inverse;
 }
 
 void decideTie(inout uint lowest, inout int verdict, uint id, int coefficient) {

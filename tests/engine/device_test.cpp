@@ -42,6 +42,20 @@ TEST(Devices, CountWhatTheValidationLayersSay) {
     EXPECT_EQ(device().validationMessageCount(), before + 1);
 }
 
+// A write past the end of a binding, which a CPU device would let pass without a word.
+TEST(Devices, HearOfWritesPastTheEnd) {
+    if (!gpuAssistedValidationIsOn()) GTEST_SKIP() << "without GPU-assisted validation nobody would notice";
+    expectValidationMessages(1);
+    struct Push {
+        uint32_t count, factor;
+    };
+    const Buffer source = scratch(device(), 1024), target = scratch(device(), 1024);
+    Commands commands(device());
+    ASSERT_TRUE(commands.begin());
+    commands.dispatch(testKernel(device(), "add_index"), 65, Push{65, 1}, {source, BufferView(target).sub(0, 256)});
+    finish(commands);
+}
+
 TEST(Kernels, AreMadeOnceForEachSetOfConstants) {
     KernelLibrary kernels(device(), shaders::engineTestKernels());
     EXPECT_EQ(kernels.kernelCount(), 0u);

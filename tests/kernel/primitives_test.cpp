@@ -11,7 +11,7 @@ struct LengthPush {
     uint32_t length, length_count;
 };
 
-TEST(Compact, ListsTheFlaggedInOrder) {
+TEST(SmallCompact, ListsTheFlaggedInOrder) {
     for (const uint32_t n : kSizes) {
         std::mt19937 random(n);
         std::vector<uint32_t> offsets = {0}, expected;
@@ -46,7 +46,7 @@ std::vector<SixWords> crowdedPoints(uint32_t count) {
     return points;
 }
 
-TEST(WeldPoints, GivesEveryPointTheLowestIdAtItsPlace) {
+TEST(SmallWeldPoints, GivesEveryPointTheLowestIdAtItsPlace) {
     for (const uint32_t n : {1u, 63u, 64u, 65u, 1234u, 50'000u}) {
         const std::vector<SixWords> points = crowdedPoints(n);
         std::map<SixWords, uint32_t> lowest;
@@ -68,7 +68,7 @@ TEST(WeldPoints, GivesEveryPointTheLowestIdAtItsPlace) {
     }
 }
 
-TEST(WeldPoints, ReportsATableThatIsFull) {
+TEST(SmallWeldPoints, ReportsATableThatIsFull) {
     std::vector<SixWords> points;
     for (uint32_t k = 0; k < 200; ++k)
         points.push_back({k, 0, 0, 0, 0, 0});

@@ -57,7 +57,7 @@ std::vector<uint32_t> scan(const std::vector<uint32_t>& values, uint32_t channel
     return valuesOf<uint32_t>(out, (n + 1) * channels);
 }
 
-TEST(Scan, IsTheRunningSum) {
+TEST(SmallScan, IsTheRunningSum) {
     for (const uint32_t n : kScanSizes) {
         Counts counts;
         const std::vector<uint32_t> values = randomWords(n, 1000);
@@ -65,7 +65,7 @@ TEST(Scan, IsTheRunningSum) {
     }
 }
 
-TEST(Scan, OfFourChannelsIsFourRunningSums) {
+TEST(SmallScan, OfFourChannelsIsFourRunningSums) {
     for (const uint32_t n : kScanSizes) {
         Counts counts;
         const std::vector<uint32_t> values = randomWords(4 * n, 1000);
@@ -73,7 +73,7 @@ TEST(Scan, OfFourChannelsIsFourRunningSums) {
     }
 }
 
-TEST(Scan, TakesItsLengthFromACount) {
+TEST(SmallScan, TakesItsLengthFromACount) {
     Counts counts;
     counts[COUNT_PAIRS] = 1000;
     const std::vector<uint32_t> values = randomWords(1234, 10);
@@ -82,7 +82,7 @@ TEST(Scan, TakesItsLengthFromACount) {
     EXPECT_TRUE(std::equal(expected.begin(), expected.begin() + 1001, offsets.begin()));
 }
 
-TEST(Scan, PublishesTotalsAndDispatchArguments) {
+TEST(SmallScan, PublishesTotalsAndDispatchArguments) {
     for (const uint32_t n : kScanSizes) {
         Counts counts;
         const std::vector<uint32_t> values = randomWords(4 * n, 1000);
@@ -97,7 +97,7 @@ TEST(Scan, PublishesTotalsAndDispatchArguments) {
     }
 }
 
-TEST(Scan, ReportsAPoolThatIsTooSmall) {
+TEST(SmallScan, ReportsAPoolThatIsTooSmall) {
     for (const uint32_t room : {2000u, 1999u}) {
         Counts counts;
         const std::vector<uint32_t> values(1000, 2);

@@ -66,9 +66,22 @@ uint64_t binsOfEdge(const EventGrid& grid, int64_t edge, Int4& bins) {
     return total;
 }
 
+// Share of the box that the solid fills: where sites are placed inside, bins outside stay empty.
+double filledShare(const Mesh& mesh, const EventGrid& grid) {
+    double six_volumes = 0, box = 1;
+    for (const Index3& t : mesh.triangles) {
+        const Float3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+        six_volumes += static_cast<double>(a[0]) * (static_cast<double>(b[1]) * c[2] - static_cast<double>(b[2]) * c[1]) +
+                       static_cast<double>(a[1]) * (static_cast<double>(b[2]) * c[0] - static_cast<double>(b[0]) * c[2]) +
+                       static_cast<double>(a[2]) * (static_cast<double>(b[0]) * c[1] - static_cast<double>(b[1]) * c[0]);
+    }
+    for (size_t k = 0; k < 3; k++) box *= (grid.box_high[k] - grid.box_low[k] + 1.0) * static_cast<double>(grid.step);
+    return std::clamp(six_volumes / 6 / box, 1.0 / 32, 1.0);
+}
+
 // The finest cubic bins of which there are no more than the sites call for.
-void setBins(EventGrid& grid, uint32_t site_count) {
-    auto wanted = std::max<uint64_t>(1, static_cast<uint64_t>(site_count / kSitesPerBin));
+void setBins(EventGrid& grid, uint32_t site_count, double filled) {
+    auto wanted = std::max<uint64_t>(1, static_cast<uint64_t>(site_count / kSitesPerBin / filled));
     int64_t low = 1, high = 1 << 25;
     Int4 bins{};
     while (low < high) {
@@ -105,7 +118,7 @@ engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double
     grid.scale = std::ldexp(1.0f, exponent);
     grid.step = std::ldexp(1.0f, -exponent);
     setBox(grid, mesh, sites);
-    setBins(grid, site_count);
+    setBins(grid, site_count, sites.empty() ? filledShare(mesh, grid) : 1.0);
     return grid;
 }
 

@@ -110,7 +110,7 @@ namespace {
 
 // Words a cell of the two larger exact kernels keeps in `raw`, and in its store.
 constexpr uint64_t kMediumRaw = 2 + 256 + 2 * 512, kLargeRaw = 2 + 2048 + 2 * 4096;
-constexpr uint64_t kMediumStore = 17 * 512, kLargeStore = 17 * 4096;
+constexpr uint64_t kMediumStore = 16 * 512, kLargeStore = 16 * 4096;
 
 class Taker {
 public:

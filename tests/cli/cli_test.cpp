@@ -1,0 +1,175 @@
+// The program as its users meet it: exit codes, one-line errors, no output where something is wrong, the same bytes twice.
+#include "tests/reference/glb_file.h"
+#include "tests/support/process.h"
+#include "tests/support/shared_meshes.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace {
+
+using support::fileBytes;
+using support::Outcome;
+using support::runProgram;
+
+class Cli : public testing::Test {
+protected:
+    void SetUp() override {
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    // One line on stderr, the expected exit code, and nothing left behind.
+    void expectRefused(std::vector<std::string> arguments, int exit_code) {
+        const std::filesystem::path output = folder_ / "refused.glb";
+        arguments.insert(arguments.end(), {"-o", output.string()});
+        const Outcome run = runProgram("brittle", arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(output));
+        EXPECT_TRUE(run.out.empty()) << run.out;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_))
+            EXPECT_EQ(entry.path().filename().string().find("refused"), std::string::npos) << entry.path();
+    }
+
+private:
+    const std::filesystem::path folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        ("brittle_cli_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+TEST_F(Cli, ShatterWritesFragmentsAndReportsThem) {
+    const Outcome run =
+        runProgram("brittle", {"shatter", "builtin:icosphere:3", "-o", path("a.glb"), "--sites", "12", "--verify", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    for (const char* key : {"device", "model", "sites", "cells", "fragments", "volume_error", "area_error", "open_edges",
+                            "unpaired_inner_triangles", "exact_cells", "ms"})
+        EXPECT_TRUE(report.contains(key)) << key;
+    for (const char* key : {"vertices", "triangles", "components", "volume", "area"})
+        EXPECT_TRUE(report["model"].contains(key)) << key;
+    EXPECT_EQ(report["sites"]["used"], 12);
+    EXPECT_EQ(report["cells"]["ok"], 12);
+    EXPECT_EQ(report["cells"]["refused"], 0);
+    EXPECT_EQ(report["open_edges"], 0);
+    EXPECT_GT(report["ms"]["total"].get<double>(), 0);
+    const reference::FragmentFile file = reference::readFragmentFile(path("a.glb"));
+    EXPECT_EQ(file.pieces.size(), report["fragments"].get<size_t>());
+    EXPECT_TRUE(file.faults.empty());
+}
+
+TEST_F(Cli, TheSameSeedGivesTheSameBytes) {
+    const auto shatter = [&](const std::string& name, const std::string& seed, const std::string& threads) {
+        const Outcome run =
+            runProgram("brittle", {"shatter", "builtin:bumpy:3", "-o", path(name), "--sites", "30", "--seed", seed},
+                       {"LP_NUM_THREADS=" + threads});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return fileBytes(path(name));
+    };
+    const std::string first = shatter("first.glb", "7", "2");
+    ASSERT_FALSE(first.empty());
+    EXPECT_EQ(shatter("again.glb", "7", "2"), first);
+    EXPECT_EQ(shatter("one.glb", "7", "1"), first);
+    EXPECT_EQ(shatter("none.glb", "7", "0"), first);
+    EXPECT_NE(shatter("other.glb", "8", "2"), first);
+}
+
+TEST_F(Cli, SitesFromAFile) {
+    std::ofstream(path("sites.txt")) << "# three in the cube\n-.25 0 0\n.25 0 0\n\n0 .25 .1  # the last\n";
+    const Outcome run =
+        runProgram("brittle", {"shatter", "builtin:cube", "-o", path("a.glb"), "--sites-file", path("sites.txt"), "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["sites"]["used"], 3);
+    const reference::FragmentFile file = reference::readFragmentFile(path("a.glb"));
+    ASSERT_EQ(file.pieces.size(), 3u);
+    for (size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(file.pieces[0].site[k], k == 0 ? -.25 : 0, 1e-6);
+}
+
+TEST_F(Cli, BadUsageIsRefused) {
+    EXPECT_EQ(runProgram("brittle", {}).exit_code, 2);
+    EXPECT_EQ(runProgram("brittle", {"break"}).exit_code, 2);
+    EXPECT_EQ(runProgram("brittle", {"shatter", "builtin:cube"}).exit_code, 2) << "no output named";
+    expectRefused({"shatter", "builtin:cube", "--sites", "0"}, 2);
+    expectRefused({"shatter", "builtin:cube", "--sites", "many"}, 2);
+    expectRefused({"shatter", "builtin:nothing"}, 2);
+    expectRefused({"shatter", path("missing.obj")}, 2);
+    expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);
+    std::ofstream(path("bad.txt")) << "0 0 0\n1 2\n";
+    expectRefused({"shatter", "builtin:cube", "--sites-file", path("bad.txt")}, 2);
+    expectRefused({"shatter", "builtin:cube", "--device", "no such device"}, 4);
+}
+
+TEST_F(Cli, AnUnwritableOutputIsRefused) {
+    const Outcome run = runProgram("brittle", {"shatter", "builtin:cube", "-o", path("no/such/folder/a.glb")});
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST_F(Cli, HelpIsNoError) {
+    for (const char* command : {"shatter", "devices", "doctor"}) {
+        const Outcome run = runProgram("brittle", {command, "--help"});
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_FALSE(run.out.empty());
+    }
+}
+
+TEST_F(Cli, DevicesListsWhatThereIs) {
+    const Outcome run = runProgram("brittle", {"devices"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_FALSE(run.out.empty());
+}
+
+TEST_F(Cli, BrokenFilesAreRefused) {
+    SKIP_WITHOUT_MESHES();
+    for (const char* name : {"bad/fandisk-truncated.off",
+                             "bad/gearwheel-truncated.stl",
+                             "bad/gearwheel-count-huge.stl",
+                             "bad/spot-nan.obj",
+                             "bad/torus-index-out-of-range.obj",
+                             "bad/bones-face-count-too-big.off",
+                             "bad/WaterBottle-truncated.glb",
+                             "bad/abdomen-truncated.dae",
+                             "bad/spider-truncated.fbx",
+                             "bad/empty.obj",
+                             "bad/vertices-only.obj",
+                             "bad/header-only.ply",
+                             "bad/huge-count.ply",
+                             "bad/random-bytes.stl",
+                             "bad/torus-double-sided.obj",
+                             "bad/spot-30pct-flipped.obj",
+                             "bad/spot-t-junctions.obj",
+                             "bad/one-triangle.stl",
+                             "bad/ico4-flattened.obj",
+                             "elephant-with-holes.off",
+                             "moebius.obj",
+                             "NOTICE.md"}) {
+        SCOPED_TRACE(name);
+        expectRefused({"shatter", support::sharedMesh(name).string(), "--sites", "3"}, 2);
+    }
+}
+
+TEST_F(Cli, OddButSoundFilesAreNotRefused) {
+    SKIP_WITHOUT_MESHES();
+    for (const char* name :
+         {"bad/gearwheel-solid-header.stl", "bad/spot-bigendian-double.ply", "bad/torus-collinear-triangles.obj",
+          "bad/torus-scale-1e-6.obj", "bad/trefoil-scale-1e7.obj", "bad/couplingdown-offset-1e6.off",
+          "bad/hollow-ico4-wall-2pct.obj", "bad/torus-stray-vertices.obj", "bad/l-prism-concave-ngons.obj"}) {
+        const Outcome run = runProgram(
+            "brittle", {"shatter", support::sharedMesh(name).string(), "-o", path("a.glb"), "--sites", "5", "--verify"});
+        EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
+    }
+}
+
+TEST_F(Cli, DoctorTellsSoundFromBroken) {
+    EXPECT_EQ(runProgram("brittle", {"doctor", "builtin:ring"}).exit_code, 0);
+    SKIP_WITHOUT_MESHES();
+    EXPECT_EQ(runProgram("brittle", {"doctor", support::sharedMesh("moebius.obj").string()}).exit_code, 2);
+}
+
+} // namespace

@@ -1,0 +1,25 @@
+# Who may include whom. Run as a script: cmake -DSOURCE_DIR=... -P include_rules.cmake
+cmake_policy(VERSION 3.25)
+
+# rule(FOLDER REGEX WHY [EXCEPT file...]): no include line of the folder's sources may match.
+function(rule folder regex why)
+    cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "EXCEPT")
+    file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/${folder}/*.h ${SOURCE_DIR}/${folder}/*.cpp
+        ${SOURCE_DIR}/${folder}/*.comp ${SOURCE_DIR}/${folder}/*.glsl ${SOURCE_DIR}/${folder}/*.vert ${SOURCE_DIR}/${folder}/*.frag)
+    foreach(file ${files})
+        file(STRINGS ${SOURCE_DIR}/${file} lines REGEX "^[ ]*#[ ]*include[ ]+[<\"](${regex})")
+        if(lines AND NOT file IN_LIST arg_EXCEPT)
+            message(SEND_ERROR "${file}: ${why}: ${lines}")
+        endif()
+    endforeach()
+endfunction()
+
+rule(shaders-spirv/shared "(engine|modules|tools|tests)/" "shared headers stand alone")
+rule(shaders-spirv "(engine|modules|tools|tests)/" "kernels know only shared headers and lib")
+rule(engine "(modules|tools|tests)/" "the engine knows no module")
+rule(engine "shaders-spirv/shared/(fracture|fragment)" "the engine knows no fracture")
+rule(modules "(tools|tests)/" "modules know no program")
+rule(modules/brittle/mesh "(volk|vulkan)" "the mesh knows no Vulkan")
+rule(modules "assimp/" "only mesh/import sees assimp" EXCEPT modules/brittle/mesh/import.cpp modules/brittle/mesh/imported_mesh.cpp
+    modules/brittle/mesh/imported_mesh.h)
+rule(tests/reference "(engine|modules/brittle/(fracture|export))|shaders-spirv" "an oracle shares no code with what it checks")

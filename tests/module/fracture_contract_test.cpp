@@ -1,0 +1,278 @@
+// Whole fractures against the contract, as an outsider sees it: the exported file, read back by the checker's own reader, and
+// the model, read by the checker's own reader.
+#include "modules/brittle/export/glb.h"
+#include "modules/brittle/fracture/fracture.h"
+#include "modules/brittle/fracture/verify.h"
+#include "modules/brittle/mesh/check.h"
+#include "modules/brittle/mesh/import.h"
+#include "modules/brittle/mesh/prepare.h"
+#include "modules/brittle/mesh/primitives.h"
+#include "tests/engine/test_device.h"
+#include "tests/hard/hard_sites.h"
+#include "tests/reference/contract.h"
+#include "tests/reference/model_file.h"
+#include "tests/support/shared_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+
+namespace {
+
+using brittle::FractureOptions;
+using brittle::FractureResult;
+using brittle::PreparedMesh;
+
+// One for all tests of the program, so that pipelines are made once; it goes before its device does.
+class SharedFracture : public testing::Environment {
+public:
+    brittle::Fracture& get() {
+        if (!fracture_) {
+            auto made = brittle::Fracture::create(engine_test::device());
+            if (!made) ADD_FAILURE() << made.error().message;
+            fracture_ = std::move(*made);
+        }
+        return *fracture_;
+    }
+    void TearDown() override { fracture_.reset(); }
+
+private:
+    std::unique_ptr<brittle::Fracture> fracture_;
+};
+SharedFracture& shared_fracture = *static_cast<SharedFracture*>(testing::AddGlobalTestEnvironment(new SharedFracture));
+
+struct Model {
+    PreparedMesh prepared;
+    reference::Triangles triangles; // as the checker's reader sees them
+};
+
+Model modelFrom(const brittle::ImportedMesh& imported) {
+    auto prepared = brittle::prepareMesh(imported);
+    EXPECT_TRUE(prepared) << prepared.error().message;
+    Model model{std::move(*prepared), {}};
+    for (const brittle::Index3& t : imported.triangles)
+        model.triangles.push_back({imported.positions[t[0]], imported.positions[t[1]], imported.positions[t[2]]});
+    return model;
+}
+
+Model modelFrom(const std::string& name) {
+    if (name.starts_with("builtin:")) {
+        auto made = brittle::makeBuiltin(name.substr(8));
+        EXPECT_TRUE(made) << made.error().message;
+        return modelFrom(*made);
+    }
+    auto imported = brittle::importMesh(support::sharedMesh(name));
+    EXPECT_TRUE(imported) << imported.error().message;
+    Model model = modelFrom(*imported);
+    model.triangles = reference::readModel(support::sharedMesh(name).string());
+    return model;
+}
+
+reference::FragmentFile exported(const brittle::FragmentSet& fragments) {
+    const auto bytes = brittle::encodeGlb(fragments);
+    EXPECT_TRUE(bytes) << bytes.error().message;
+    const std::string path = testing::TempDir() + "brittle_contract.glb";
+    std::ofstream(path, std::ios::binary) << *bytes;
+    return reference::readFragmentFile(path);
+}
+
+void expectCountsAddUp(const FractureResult& result) {
+    const brittle::FractureCounts& c = result.counts;
+    EXPECT_EQ(c.sites_used + c.sites_welded, c.sites_requested);
+    EXPECT_EQ(c.cells_ok + c.cells_empty + c.cells_refused, c.sites_used);
+    EXPECT_EQ(result.sites.size(), c.sites_used);
+    EXPECT_GE(result.fragments.fragments.size(), c.cells_ok);
+}
+
+void expectContract(const Model& model, const FractureOptions& options) {
+    const auto result = shared_fracture.get().shatter(model.prepared.mesh, model.prepared.topology, options);
+    ASSERT_TRUE(result) << result.error().message;
+    expectCountsAddUp(*result);
+    const brittle::MeshMeasures measures = brittle::inspectMesh(model.prepared.mesh, model.prepared.topology).measures;
+    const auto own = brittle::verifyContract(model.prepared.mesh, measures, result->fragments, result->sites);
+    EXPECT_TRUE(own.holds()) << own.violation();
+    const reference::ContractReport report = reference::checkContract(exported(result->fragments), model.triangles);
+    EXPECT_TRUE(report.holds()) << report.text();
+}
+
+struct Case {
+    const char* model;
+    uint32_t sites;
+    uint64_t seed = 1;
+};
+
+std::string nameOf(const testing::TestParamInfo<Case>& info) {
+    std::string name =
+        std::string(info.param.model) + "_" + std::to_string(info.param.sites) + "_seed" + std::to_string(info.param.seed);
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
+}
+
+class FractureContract : public testing::TestWithParam<Case> {};
+
+TEST_P(FractureContract, Holds) {
+    const Case& c = GetParam();
+    if (!std::string(c.model).starts_with("builtin:")) SKIP_WITHOUT_MESHES();
+    FractureOptions options;
+    options.site_count = c.sites;
+    options.seed = c.seed;
+    expectContract(modelFrom(c.model), options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, FractureContract,
+                         testing::Values(Case{"builtin:cube", 1}, Case{"builtin:cube", 2}, Case{"builtin:cube", 65},
+                                         Case{"builtin:icosphere:2", 12}, Case{"ico4.obj", 10}, Case{"hundred_cubes.obj", 10}),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Quick, FractureContract,
+                         testing::Values(Case{"builtin:icosphere:3", 63}, Case{"builtin:icosphere:3", 64},
+                                         Case{"builtin:ring", 40}, Case{"builtin:bumpy:4", 300}, Case{"ico4.obj", 1000},
+                                         Case{"spot_low_resolution.obj", 100}, Case{"gearwheel.bin.stl", 10},
+                                         Case{"gearwheel.bin.stl", 100}, Case{"torus.obj", 100}, Case{"couplingdown.off", 2},
+                                         Case{"trefoil.obj", 100}, Case{"goblet-Vase.stl", 10}, Case{"utah_teapot.stl", 100},
+                                         Case{"fandisk.off", 10}, Case{"cheese.off", 10}),
+                         nameOf);
+
+std::vector<Case> longCases() {
+    std::vector<Case> cases;
+    for (const char* model : {"ico4.obj", "spot_low_resolution.obj", "utah_teapot.stl", "bunny_hr.obj", "fandisk.off",
+                              "gearwheel.bin.stl", "torus.obj", "trefoil.obj", "cheese.off", "couplingdown.off",
+                              "goblet-Vase.stl", "hundred_cubes.obj", "armadillo.obj", "thingi10k-908460.stl"}) {
+        for (const uint32_t sites : {1u, 2u, 10u, 100u, 1000u})
+            cases.push_back({model, sites});
+        cases.push_back({model, 100, 2});
+        cases.push_back({model, 100, 3});
+    }
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Long, FractureContract, testing::ValuesIn(longCases()), nameOf);
+
+// Sites in ties with each other, with the box and with the model: the 27 sets, spread over the model's box.
+struct HardCase {
+    size_t set;
+    const char* model;
+};
+
+FractureOptions sitesOver(const hard::HardSites& hard, const Model& model) {
+    const reference::Bounds bounds = reference::boundsOf(model.triangles);
+    FractureOptions options;
+    for (const hard::Point& p : hard.sites) {
+        brittle::Double3 site;
+        for (size_t k = 0; k < 3; ++k)
+            site[k] = bounds.lower[k] +
+                      (p[k] - hard.lower[k]) / (hard.upper[k] - hard.lower[k]) * (bounds.upper[k] - bounds.lower[k]);
+        options.given_sites.push_back(site);
+    }
+    return options;
+}
+
+class HardSitesContract : public testing::TestWithParam<HardCase> {};
+
+TEST_P(HardSitesContract, Holds) {
+    if (!std::string(GetParam().model).starts_with("builtin:")) SKIP_WITHOUT_MESHES();
+    const hard::HardSites hard = hard::hardSites()[GetParam().set];
+    SCOPED_TRACE(hard.name);
+    const Model model = modelFrom(GetParam().model);
+    expectContract(model, sitesOver(hard, model));
+}
+
+std::vector<HardCase> hardCases(std::initializer_list<size_t> sets, std::initializer_list<const char*> models) {
+    std::vector<HardCase> cases;
+    for (const char* model : models)
+        for (const size_t set : sets)
+            cases.push_back({set, model});
+    return cases;
+}
+
+std::string hardNameOf(const testing::TestParamInfo<HardCase>& info) {
+    return nameOf({Case{info.param.model, static_cast<uint32_t>(info.param.set)}, info.index});
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, HardSitesContract, testing::ValuesIn(hardCases({7, 16, 24, 25}, {"builtin:cube"})), hardNameOf);
+INSTANTIATE_TEST_SUITE_P(Quick, HardSitesContract, testing::ValuesIn(hardCases({10, 15, 17, 23, 26}, {"builtin:cube"})),
+                         hardNameOf);
+INSTANTIATE_TEST_SUITE_P(Long, HardSitesContract,
+                         testing::ValuesIn(hardCases({0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13,
+                                                      14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26},
+                                                     {"builtin:cube", "spot_low_resolution.obj", "gearwheel.bin.stl"})),
+                         hardNameOf);
+
+// Bisectors in the faces of the model: a cube split by a lattice whose planes are the cube's own.
+TEST(FractureTies, LatticesInAndThroughTheFacesOfACube) {
+    const Model cube = modelFrom("builtin:cube");
+    for (const double step : {1.0, 0.5, 0.25}) {
+        SCOPED_TRACE(step);
+        FractureOptions options;
+        for (double x = -1; x <= 1; x += step)
+            for (double y = -1; y <= 1; y += step)
+                for (double z = -1; z <= 1; z += step)
+                    options.given_sites.push_back({x, y, z});
+        expectContract(cube, options);
+    }
+}
+
+TEST(FractureTies, SitesInOnePlaneAndOutsideTheModel) {
+    const Model cube = modelFrom("builtin:cube");
+    FractureOptions options;
+    for (int k = 0; k < 20; ++k)
+        options.given_sites.push_back({-1.5 + 0.15 * k, 0.1 * (k % 3), 0});
+    expectContract(cube, options);
+}
+
+TEST(FractureLimits, ManyCellsInAFewTriangles) {
+    FractureOptions options;
+    options.site_count = 2000;
+    expectContract(modelFrom("builtin:cube"), options);
+}
+
+TEST(FractureLimits, ACellWithThreeHundredFaces) {
+    const Model cube = modelFrom("builtin:cube");
+    expectContract(cube, sitesOver(hard::sphereAroundCenter(300, .2), cube));
+}
+
+TEST(LongFractureLimits, ACellWithTwoThousandFaces) {
+    const Model cube = modelFrom("builtin:cube");
+    expectContract(cube, sitesOver(hard::sphereAroundCenter(2000, .3), cube));
+}
+
+TEST(LongFractureLimits, TwentyThousandCellsInACube) {
+    FractureOptions options;
+    options.site_count = 20'000;
+    expectContract(modelFrom("builtin:cube"), options);
+}
+
+TEST(LongFractureLimits, AModelOfManyTriangles) {
+    FractureOptions options;
+    options.site_count = 100;
+    expectContract(modelFrom("builtin:bumpy:7"), options); // 327,680 triangles
+}
+
+TEST(FractureRefuses, NoSitesAndSitesFarAway) {
+    const Model cube = modelFrom("builtin:cube");
+    FractureOptions options;
+    options.site_count = 0;
+    EXPECT_FALSE(shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options));
+    options.given_sites = {{0, 0, 0}, {1e9, 0, 0}};
+    const auto result = shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, engine::ErrorCode::BadInput);
+}
+
+TEST(FractureRepeats, TheSameBytesEveryTime) {
+    const Model ring = modelFrom("builtin:ring");
+    FractureOptions options;
+    options.site_count = 50;
+    std::string first;
+    for (int run = 0; run < 3; ++run) {
+        const auto result = shared_fracture.get().shatter(ring.prepared.mesh, ring.prepared.topology, options);
+        ASSERT_TRUE(result) << result.error().message;
+        const auto bytes = brittle::encodeGlb(result->fragments);
+        ASSERT_TRUE(bytes);
+        if (run == 0) first = *bytes;
+        EXPECT_TRUE(*bytes == first);
+    }
+}
+
+} // namespace
