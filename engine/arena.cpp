@@ -47,8 +47,8 @@ void ScratchArena::reset() {
 
 Result<void> ScratchArena::status() const {
     if (!overflowed_) return {};
-    return Error{ErrorCode::Capacity, "arena \"" + buffer_->name() + "\" holds " + std::to_string(capacity()) +
-                                          " bytes, " + std::to_string(peak_) + " are needed"};
+    return Error{ErrorCode::Capacity, "arena \"" + buffer_->name() + "\" holds " + std::to_string(capacity()) + " bytes, " +
+                                          std::to_string(peak_) + " are needed"};
 }
 
 } // namespace engine

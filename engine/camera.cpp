@@ -52,9 +52,9 @@ gpu::mat4 product(const gpu::mat4& a, const gpu::mat4& b) {
 
 gpu::mat4 Camera::viewProjection(float aspect) const {
     const Axes a = axesOf(eye - target, up);
-    const gpu::mat4 view{{a.right[0], a.up[0], a.back[0], 0,                                    //
-                          a.right[1], a.up[1], a.back[1], 0,                                    //
-                          a.right[2], a.up[2], a.back[2], 0,                                    //
+    const gpu::mat4 view{{a.right[0], a.up[0], a.back[0], 0, //
+                          a.right[1], a.up[1], a.back[1], 0, //
+                          a.right[2], a.up[2], a.back[2], 0, //
                           -dot(a.right, eye), -dot(a.up, eye), -dot(a.back, eye), 1}};
     const float focal = 1 / std::tan(fov_y / 2), depth = far_plane / (near_plane - far_plane);
     const gpu::mat4 projection{{focal / aspect, 0, 0, 0, //

@@ -163,7 +163,8 @@ bool Commands::prepare(const Kernel& kernel, Bytes push, Views buffers, const Bu
     const VolkDeviceTable& vk = device_.vk();
     vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
     if (!push.empty()) {
-        vk.vkCmdPushConstants(commands_, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size, push.data());
+        vk.vkCmdPushConstants(commands_, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size,
+                              push.data());
     }
     return bindBuffers(kernel, buffers);
 }
@@ -194,7 +195,8 @@ bool Commands::acceptsView(const Kernel& kernel, uint32_t slot, const BufferView
     else if (!fits(view))
         why = "ends past its buffer \"" + view.buffer->name() + "\"";
     else if (view.offset % limits.minStorageBufferOffsetAlignment != 0)
-        why = "starts at " + std::to_string(view.offset) + ", no multiple of " + std::to_string(limits.minStorageBufferOffsetAlignment);
+        why = "starts at " + std::to_string(view.offset) + ", no multiple of " +
+              std::to_string(limits.minStorageBufferOffsetAlignment);
     else if (view.size > limits.maxStorageBufferRange)
         why = "has " + std::to_string(view.size) + " bytes, a binding holds " + std::to_string(limits.maxStorageBufferRange);
     if (why.empty()) return true;

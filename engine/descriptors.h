@@ -25,8 +25,8 @@ private:
 
     Device& device_;
     std::vector<VkDescriptorPool> pools_;
-    size_t current_ = 0;      // pool that is being filled
-    uint32_t sets_left_ = 0;  // in it
+    size_t current_ = 0;     // pool that is being filled
+    uint32_t sets_left_ = 0; // in it
     uint32_t buffers_left_ = 0;
 };
 

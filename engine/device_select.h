@@ -20,11 +20,11 @@ struct DeviceInfo {
 
 // What a physical device offers of that which is used where present; nothing of it is needed.
 struct OptionalFeatures {
-    bool push_descriptors = false;          // else: pooled descriptor sets
-    bool multi_draw_indirect = false;       // else: one call per draw command
+    bool push_descriptors = false;             // else: pooled descriptor sets
+    bool multi_draw_indirect = false;          // else: one call per draw command
     bool draw_indirect_first_instance = false; // else: no renderer
-    bool driver_properties = false;         // else: a driver without a name
-    bool shader_stores = false;             // only the GPU-assisted validation wants it
+    bool driver_properties = false;            // else: a driver without a name
+    bool shader_stores = false;                // only the GPU-assisted validation wants it
 };
 
 // The one list of what is required of a device. Empty: it will do.

@@ -63,9 +63,8 @@ struct PipelineState {
     PipelineState& operator=(const PipelineState&) = delete;
 
     VkVertexInputBindingDescription binding{0, sizeof(gpu::SceneVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    VkVertexInputAttributeDescription attributes[2] = {
-        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, position)},
-        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, normal)}};
+    VkVertexInputAttributeDescription attributes[2] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, position)},
+                                                       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::SceneVertex, normal)}};
     VkDynamicState dynamic_states[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineColorBlendAttachmentState write{};
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};

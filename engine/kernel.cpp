@@ -29,7 +29,8 @@ Result<void> checkInterface(const Kernel& kernel, const VkPhysicalDeviceLimits& 
     }
     const uint32_t most = std::min(kMaxBindings, limits.maxPerStageDescriptorStorageBuffers);
     if (r.bindings.size() > most) {
-        return refused(kernel.name, "binds " + std::to_string(r.bindings.size()) + " buffers, the device has " + std::to_string(most));
+        return refused(kernel.name,
+                       "binds " + std::to_string(r.bindings.size()) + " buffers, the device has " + std::to_string(most));
     }
     if (r.push_size > limits.maxPushConstantsSize) return refused(kernel.name, "has too many push constants");
     if (r.local_size[1] != 1 || r.local_size[2] != 1) return refused(kernel.name, "has a workgroup of more than one dimension");
@@ -149,7 +150,12 @@ Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_
         entries.push_back({i, i * 4, 4});
     const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(), spec.size_bytes(), spec.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, module, "main",
+    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  nullptr,
+                  0,
+                  VK_SHADER_STAGE_COMPUTE_BIT,
+                  module,
+                  "main",
                   spec.empty() ? nullptr : &constants};
     info.layout = kernel.layout;
     made = vk.vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &kernel.pipeline);

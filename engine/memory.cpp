@@ -54,8 +54,7 @@ MemoryPool::~MemoryPool() {
         device_.vk().vkFreeMemory(device_.handle(), block->handle, nullptr);
 }
 
-Result<uint32_t> MemoryPool::pickType(uint32_t allowed, VkMemoryPropertyFlags required,
-                                      VkMemoryPropertyFlags preferred) const {
+Result<uint32_t> MemoryPool::pickType(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const {
     for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
         for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
             const VkMemoryPropertyFlags flags = properties_.memoryTypes[i].propertyFlags;
@@ -89,7 +88,8 @@ Result<MemoryShare> MemoryPool::take(const VkMemoryRequirements& needs, VkMemory
     if (!type) return type.error();
     for (const auto& block : blocks_) {
         if (block->type != *type) continue;
-        if (const auto offset = takeFrom(*block, needs.size, needs.alignment)) return MemoryShare{block.get(), *offset, needs.size};
+        if (const auto offset = takeFrom(*block, needs.size, needs.alignment))
+            return MemoryShare{block.get(), *offset, needs.size};
     }
     auto block = addBlock(*type, std::max(kBlockBytes, needs.size));
     if (!block) return block.error();

@@ -17,8 +17,8 @@ struct MemoryBlock {
     VkDeviceMemory handle = VK_NULL_HANDLE;
     uint32_t type = 0;
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr;                  // the whole block, where the host can see it
-    std::map<VkDeviceSize, VkDeviceSize> free;    // offset to length, never touching each other
+    std::byte* mapped = nullptr;               // the whole block, where the host can see it
+    std::map<VkDeviceSize, VkDeviceSize> free; // offset to length, never touching each other
 };
 
 struct MemoryShare {
@@ -37,7 +37,8 @@ public:
     MemoryPool& operator=(const MemoryPool&) = delete;
 
     // Memory that has all of `required`, and of `preferred` if there is such. Safe from any thread.
-    Result<MemoryShare> take(const VkMemoryRequirements& needs, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred);
+    Result<MemoryShare> take(const VkMemoryRequirements& needs, VkMemoryPropertyFlags required,
+                             VkMemoryPropertyFlags preferred);
     void giveBack(const MemoryShare& share);
 
     VkDeviceSize allocatedBytes() const; // in all blocks, used or not

@@ -14,10 +14,10 @@ namespace engine {
 
 struct FrameContext {
     Device& device;
-    Commands& commands;  // record here; the frame submits
-    uint64_t index = 0;  // of the frame, from 0
-    double dt = 0;       // seconds that this frame moves on
-    double time = 0;     // seconds at its beginning
+    Commands& commands; // record here; the frame submits
+    uint64_t index = 0; // of the frame, from 0
+    double dt = 0;      // seconds that this frame moves on
+    double time = 0;    // seconds at its beginning
 };
 
 struct ModuleInfo {

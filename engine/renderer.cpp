@@ -64,7 +64,8 @@ Result<void> store(Result<T> made, T& place) {
     return {};
 }
 
-VkImageMemoryBarrier transition(VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before, VkAccessFlags after) {
+VkImageMemoryBarrier transition(VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,
+                                VkAccessFlags after) {
     VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
     barrier.srcAccessMask = before;
     barrier.dstAccessMask = after;
@@ -97,7 +98,8 @@ Result<void> OffscreenRenderer::createTargets() {
     constexpr VkImageUsageFlags kCopyUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     auto made = store(Image::create(device_, wide, high, kColorFormat, kColorUsage, "color"), color_);
     if (made)
-        made = store(Image::create(device_, wide, high, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth"), depth_);
+        made = store(Image::create(device_, wide, high, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth"),
+                     depth_);
     if (made) made = store(Image::create(device_, width_, height_, kColorFormat, kCopyUsage, "resolved"), resolved_);
     if (made) {
         const VkDeviceSize bytes = VkDeviceSize(4) * width_ * height_;
@@ -156,7 +158,8 @@ Result<void> OffscreenRenderer::check(const DrawScene& scene) const {
     for (const BufferView& view : {scene.vertices, scene.indices, scene.draw_commands, scene.matrices}) {
         if (view.buffer == nullptr || view.size == 0) return refuse("a buffer of the scene is missing");
     }
-    if ((scene.vertices.buffer->usage() & VK_BUFFER_USAGE_VERTEX_BUFFER_BIT) == 0) return refuse("vertices without vertex usage");
+    if ((scene.vertices.buffer->usage() & VK_BUFFER_USAGE_VERTEX_BUFFER_BIT) == 0)
+        return refuse("vertices without vertex usage");
     if ((scene.indices.buffer->usage() & VK_BUFFER_USAGE_INDEX_BUFFER_BIT) == 0) return refuse("indices without index usage");
     if (scene.draw_commands.size < scene.draw_count * kCommandBytes) return refuse("fewer draw commands than draws");
     if (scene.matrices.size > device_.limits().maxStorageBufferRange) return refuse("more matrices than a binding holds");
@@ -235,8 +238,8 @@ void OffscreenRenderer::recordDraws(const DrawScene& scene) {
 void OffscreenRenderer::recordReadback() {
     const VkImageMemoryBarrier before = transition(resolved_.handle(), VK_IMAGE_LAYOUT_UNDEFINED,
                                                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0, VK_ACCESS_TRANSFER_WRITE_BIT);
-    vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
-                             1, &before);
+    vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
+                             nullptr, 1, &before);
     const VkImageSubresourceLayers layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     const VkOffset3D large{static_cast<int32_t>(color_.width()), static_cast<int32_t>(color_.height()), 1};
     const VkOffset3D small{static_cast<int32_t>(width_), static_cast<int32_t>(height_), 1};
@@ -246,11 +249,13 @@ void OffscreenRenderer::recordReadback() {
     const VkImageMemoryBarrier between =
         transition(resolved_.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-    vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
-                             1, &between);
+    vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
+                             nullptr, 1, &between);
     const VkBufferImageCopy copy{0, 0, 0, layer, {0, 0, 0}, {width_, height_, 1}};
-    vk_.vkCmdCopyImageToBuffer(commands_, resolved_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_.handle(), 1, &copy);
-    const VkMemoryBarrier after{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_HOST_READ_BIT};
+    vk_.vkCmdCopyImageToBuffer(commands_, resolved_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_.handle(), 1,
+                               &copy);
+    const VkMemoryBarrier after{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
+                                VK_ACCESS_HOST_READ_BIT};
     vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &after, 0, nullptr, 0,
                              nullptr);
 }

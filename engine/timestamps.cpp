@@ -55,9 +55,9 @@ Result<std::vector<Timing>> Timestamps::read() const {
     for (size_t span = 0; span < names_.size(); ++span) {
         const auto query = static_cast<uint32_t>(2 * span);
         uint64_t ticks[2] = {};
-        const VkResult got = device_.vk().vkGetQueryPoolResults(device_.handle(), pools_[query / kQueriesPerPool],
-                                                                query % kQueriesPerPool, 2, sizeof(ticks), ticks, sizeof(ticks[0]),
-                                                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        const VkResult got = device_.vk().vkGetQueryPoolResults(
+            device_.handle(), pools_[query / kQueriesPerPool], query % kQueriesPerPool, 2, sizeof(ticks), ticks,
+            sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
         if (got != VK_SUCCESS) return vulkanError("timestamps", got);
         auto place = std::ranges::find(timings, names_[span], &Timing::name);
         if (place == timings.end()) place = timings.insert(timings.end(), {names_[span], 0, 0});

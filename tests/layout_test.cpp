@@ -20,7 +20,8 @@ struct Row {
     std::vector<engine::ReflectedMember> members;
 };
 
-#define MEMBER(type, member) {#member, offsetof(gpu::type, member)}
+#define MEMBER(type, member)                                                                                                   \
+    { #member, offsetof(gpu::type, member) }
 
 const std::vector<Row>& rows() {
     static const std::vector<Row> kRows = {

@@ -37,7 +37,7 @@ bool isEar(uint k, uint reflex) {
         uint q = uint(findLSB(others));
         others &= others - 1u;
         ivec2 x = place[q];
-        ear = !(turn(pa, pb, x) >= 0 && turn(pb, pc, x) >= 0 && turn(pc, pa, x) >= 0);
+        ear = !inTriangle(pa, pb, pc, x);
     }
     return ear;
 }

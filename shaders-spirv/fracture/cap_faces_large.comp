@@ -251,9 +251,10 @@ void hitEdge(uint lane, uint m, uint hole) {
 }
 
 bool inCone(ivec2 before, ivec2 c, ivec2 after, ivec2 x) {
-    bool inside_convex = turn(c, x, before) >= 0 && turn(c, after, x) >= 0;
-    bool outside_reflex = turn(c, x, after) >= 0 && turn(c, before, x) >= 0;
-    return turn(before, c, after) >= 0 ? inside_convex : !outside_reflex;
+    bool convex = turn(before, c, after) >= 0;
+    ivec2 first = convex ? before : after, second = convex ? after : before;
+    bool between = turn(c, x, first) >= 0 && turn(c, second, x) >= 0;
+    return convex ? between : !between;
 }
 
 // Of the loop's corners in the triangle (m, point hit, end of the edge hit), the one that leaves the ray least.
@@ -265,10 +266,7 @@ void visibleCorner(uint lane, uint m, uint loop, ivec2 hit, uint end) {
     for (uint k = lane; k < node_total; k += LANES) {
         ivec2 q = at(k);
         bool ours = live(k) && rings[base + k].z == loop;
-        bool side_a = above ? turn(p, hit, q) >= 0 : turn(p, hit, q) <= 0;
-        bool side_b = above ? turn(hit, c, q) >= 0 : turn(hit, c, q) <= 0;
-        bool side_c = above ? turn(c, p, q) >= 0 : turn(c, p, q) <= 0;
-        bool inside = ours && side_a && side_b && side_c && q.x >= p.x;
+        bool inside = ours && q.x >= p.x && inTriangle(p, above ? hit : c, above ? c : hit, q);
         inside = inside && (q == p || inCone(at(previousOf(k)), q, at(nextOf(k)), p));
         int64_t slope = (int64_t(abs(q.y - p.y)) << 31) / int64_t(max(q.x - p.x, 1));
         int64_t rank = q == p ? int64_t(-1) : slope;
@@ -318,13 +316,16 @@ void bridgeHoles(uint lane) {
 bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c) {
     ivec2 x = at(q);
     if (x != a && x != b && x != c) {
-        return turn(a, b, x) >= 0 && turn(b, c, x) >= 0 && turn(c, a, x) >= 0;
+        return inTriangle(a, b, c, x);
     }
     // A second visit of one of the ear's corners blocks only if its own edges enter the ear.
     ivec2 from = x == a ? c : (x == b ? a : b), to = x == a ? b : (x == b ? c : a);
-    ivec2 p = at(previousOf(q)), n = at(nextOf(q));
-    return (turn(from, x, p) > 0 && turn(x, to, p) > 0) ||
-           (turn(from, x, n) > 0 && turn(x, to, n) > 0);
+    bool enters = false;
+    for (uint k = 0u; k < ROLLED(2); k++) {
+        ivec2 other = at(k == 0u ? previousOf(q) : nextOf(q));
+        enters = enters || (turn(from, x, other) > 0 && turn(x, to, other) > 0);
+    }
+    return enters;
 }
 
 uint priorityOf(uint k) { return (k * 0x9e3779b1u) ^ (k >> 7); }

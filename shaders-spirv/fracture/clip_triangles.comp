@@ -36,7 +36,7 @@ Row rowOf(uint i, ivec3 qi, uint id) {
     ivec3 qj = sites[edge ? i : id].xyz;
     uint away = (id - EDGE_BASE + 2u) % 3u; // the barycentric coordinate that is 0 on this edge
     Row r;
-    for (uint c = 0u; c < 3u; c++) {
+    for (uint c = 0u; c < ROLLED(3); c++) {
         r.v[c] = edge ? (away == c ? int64_t(1) : int64_t(0)) : cornerValue(qi, qj, corner[c]);
     }
     r.id = id;
@@ -74,12 +74,12 @@ void main() {
             if (isZero(l.v[0]) && isZero(l.v[1]) && isZero(l.v[2])) flat_with = l.id;
         }
         uint gone = 0u, count = found ? n : 0u;
-        Row j = rowOf(i, qi, side[0]), first_row = j;
-        for (uint k = 0u; k < count; k++) {
-            Row following = first_row;
-            if (k + 1u < count) following = rowOf(i, qi, side[k + 1u]);
-            gone |= triangleSign(i, j, following, l) < 0 ? 1u << k : 0u;
-            j = following;
+        Row before = l;
+        for (uint k = 0u; k <= count && count > 0u; k++) {
+            Row here = rowOf(i, qi, side[k < count ? k : 0u]);
+            bool cut = k > 0u && triangleSign(i, before, here, l) < 0;
+            gone |= cut ? 1u << ((k - 1u) & 31u) : 0u;
+            before = here;
         }
         // The corners cut away are one run; l takes the place of the sides between its ends.
         uint kept = 0u, exits = 0u;

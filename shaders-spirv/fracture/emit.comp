@@ -67,12 +67,12 @@ void main() {
     flat_normal = size > 0.0 ? flat_normal / size : vec3(0.0, 0.0, 1.0);
     vec3 along = abs(flat_normal.x) > 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 u = normalize(cross(along, flat_normal)), w = cross(flat_normal, u);
-    for (uint corner = 0u; corner < 3u; corner++) {
+    for (uint corner = 0u; corner < ROLLED(3); corner++) {
         vec3 p = positions[piece[corner]].xyz;
         vec3 weight = barycentric(p, a, b, d);
         vec3 n = vec3(0.0);
         vec2 uv = vec2(0.0);
-        for (uint s = 0u; s < 3u; s++) {
+        for (uint s = 0u; s < ROLLED(3); s++) {
             n += weight[s] * vec3(cornerAttribute(3u * m + s, 0u), cornerAttribute(3u * m + s, 1u), cornerAttribute(3u * m + s, 2u));
             uv += weight[s] * vec2(cornerAttribute(3u * m + s, 3u), cornerAttribute(3u * m + s, 4u));
         }

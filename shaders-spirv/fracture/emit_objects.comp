@@ -34,7 +34,7 @@ void main() {
     FragmentRecord r = records[c];
     command(2u * f, 3u * sizes.x, 3u * at.y, 3u * at.y, 2u * f);
     command(2u * f + 1u, 3u * sizes.y, 3u * (at.y + sizes.x), 3u * at.y, 2u * f + 1u);
-    for (uint k = 0u; k < 3u; k++) {
+    for (uint k = 0u; k < ROLLED(3); k++) {
         bounds[6u * f + k] = r.low[k];
         bounds[6u * f + 3u + k] = r.high[k];
     }
@@ -42,6 +42,6 @@ void main() {
     r.range = uvec4(f, at.y, sizes);
     r.fate = uvec4(fates[c], r.fate.zw);
     fragments[f] = r;
-    for (uint k = 0u; k < 24u; k++) objects[24u * f + k] = 0.0;
-    for (uint k = 0u; k < 3u; k++) objects[24u * f + k] = r.balance[k];
+    for (uint k = 0u; k < ROLLED(24); k++) objects[24u * f + k] = 0.0;
+    for (uint k = 0u; k < ROLLED(3); k++) objects[24u * f + k] = r.balance[k];
 }

@@ -44,7 +44,7 @@ void main() {
     lows[lane] = low;
     highs[lane] = high;
     barrier();
-    for (uint width = GROUP_SIZE / 2u; width > 0u; width >>= 1) {
+    for (uint width = ROLLED(GROUP_SIZE / 2u); width > 0u; width >>= 1) {
         if (lane < width) {
             sums[lane] += sums[lane + width];
             moments[lane] += moments[lane + width];

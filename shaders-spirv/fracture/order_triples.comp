@@ -38,7 +38,7 @@ void main() {
     ivec3 p[3] = ivec3[3](vertexOf(triple.x, 0u), vertexOf(triple.x, 1u), vertexOf(triple.x, 2u));
     ivec3 qi = sites[triple.y].xyz, qj = sites[triple.z].xyz, qk = sites[triple.w].xyz;
     Row j, k;
-    for (uint c = 0u; c < 3u; c++) {
+    for (uint c = 0u; c < ROLLED(3); c++) {
         j.v[c] = cornerValue(qi, qj, p[c]);
         k.v[c] = cornerValue(qi, qk, p[c]);
     }
@@ -49,9 +49,8 @@ void main() {
         uint other = loose_triples[s];
         uint t = triples[other].x;
         ivec3 a = vertexOf(t, 0u), b = vertexOf(t, 1u), c = vertexOf(t, 2u);
-        Wide192 side = wideMul192(m.m[0], orientation(a, b, c, p[0]));
-        side = wideAdd(side, wideMul192(m.m[1], orientation(a, b, c, p[1])));
-        side = wideAdd(side, wideMul192(m.m[2], orientation(a, b, c, p[2])));
+        Wide192 side = Wide192(uint64_t(0), uint64_t(0), int64_t(0));
+        for (uint x = 0u; x < ROLLED(3); x++) side = wideAdd(side, wideMul192(m.m[x], orientation(a, b, c, p[x])));
         int place = wideSign(side) * sum_sign * triple_signs[other]; // > 0: mine lies after the other
         before += place > 0 ? 1u : 0u;
         level += place == 0 && other < mine ? 1u : 0u;

@@ -30,7 +30,7 @@ void main() {
     ivec3 g[3] = ivec3[3](grid_vertices[v.x].xyz, grid_vertices[v.y].xyz, grid_vertices[v.z].xyz);
     ivec3 qi = sites[triple.y].xyz, qj = sites[triple.z].xyz, qk = sites[triple.w].xyz;
     Row j, l;
-    for (uint c = 0u; c < 3u; c++) {
+    for (uint c = 0u; c < ROLLED(3); c++) {
         j.v[c] = cornerValue(qi, qj, g[c]);
         l.v[c] = cornerValue(qi, qk, g[c]);
     }

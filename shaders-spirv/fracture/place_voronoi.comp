@@ -26,7 +26,7 @@ int64_t quotient24(Wide128 num, Wide128 den) {
     Wide128 shifted = wideShiftLeft25(den);
     Wide128 rest = wideAdd(num, shifted);
     uint64_t q = uint64_t(0);
-    for (uint k = 0u; k < 50u; k++) {
+    for (uint k = 0u; k < ROLLED(50); k++) {
         bool take = !wideLess(rest, shifted);
         if (take) rest = wideSub(rest, shifted);
         rest = wideDouble(rest);
@@ -50,7 +50,7 @@ void main() {
     bool turned = wideSign(t.volume) < 0;
     Wide128 den = wideDouble(turned ? wideNegate(t.volume) : t.volume);
     int64_t x[3];
-    for (uint k = 0u; k < 3u; k++) {
+    for (uint k = 0u; k < ROLLED(3); k++) {
         x[k] = quotient24(turned ? wideNegate(t.moment[k]) : t.moment[k], den) + (int64_t(q[k]) << POINT_FRACTION_BITS);
     }
     uint id = vertex_count + counts[COUNT_CROSSINGS] + counts[COUNT_TRIPLES] + v;

@@ -20,7 +20,7 @@ uint64_t fractionOf(Wide128 num, Wide128 den) {
         q = uint64_t(1);
         num = wideSub(num, den);
     }
-    for (uint k = 0u; k < 32u; k++) {
+    for (uint k = 0u; k < ROLLED(32); k++) {
         num = wideDouble(num);
         bool take = !wideLess(num, den);
         if (take) num = wideSub(num, den);

@@ -19,13 +19,13 @@ shared uint tally[DIGITS * GROUP_SIZE];
 void main() {
     uint n = counts[length_count], lane = gl_LocalInvocationID.x, tile = flatGroup();
     uint tiles = (n + RADIX_TILE - 1u) / RADIX_TILE;
-    for (uint d = 0u; d < DIGITS; d++) tally[d * GROUP_SIZE + lane] = 0u;
+    for (uint d = 0u; d < ROLLED(DIGITS); d++) tally[d * GROUP_SIZE + lane] = 0u;
     uint first = tile * RADIX_TILE + lane * PER_LANE;
     for (uint k = first; k < min(first + PER_LANE, n); k++) tally[((keys[k] >> shift) & (DIGITS - 1u)) * GROUP_SIZE + lane]++;
     barrier();
     if (lane < DIGITS) {
         uint sum = 0u;
-        for (uint k = 0u; k < GROUP_SIZE; k++) sum += tally[lane * GROUP_SIZE + k];
+        for (uint k = 0u; k < ROLLED(GROUP_SIZE); k++) sum += tally[lane * GROUP_SIZE + k];
         histogram[lane * tiles + tile] = sum;
     }
 }

@@ -23,13 +23,13 @@ shared uint tally[DIGITS * GROUP_SIZE];
 void main() {
     uint n = counts[length_count], lane = gl_LocalInvocationID.x, tile = flatGroup();
     uint tiles = (n + RADIX_TILE - 1u) / RADIX_TILE;
-    for (uint d = 0u; d < DIGITS; d++) tally[d * GROUP_SIZE + lane] = 0u;
+    for (uint d = 0u; d < ROLLED(DIGITS); d++) tally[d * GROUP_SIZE + lane] = 0u;
     uint first = tile * RADIX_TILE + lane * PER_LANE, last = min(first + PER_LANE, n);
     for (uint k = first; k < last; k++) tally[((keys[k] >> shift) & (DIGITS - 1u)) * GROUP_SIZE + lane]++;
     barrier();
     if (lane < DIGITS) {
         uint running = digit_offsets[lane * tiles + tile];
-        for (uint k = 0u; k < GROUP_SIZE; k++) {
+        for (uint k = 0u; k < ROLLED(GROUP_SIZE); k++) {
             uint here = tally[lane * GROUP_SIZE + k];
             tally[lane * GROUP_SIZE + k] = running;
             running += here;

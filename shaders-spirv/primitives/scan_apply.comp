@@ -29,7 +29,7 @@ Value sumOfEarlierBlocks(uint block, uint lane) {
     for (uint b = lane; b < block; b += GROUP_SIZE) sum += sums[b];
     partial[lane] = sum;
     barrier();
-    for (uint width = GROUP_SIZE / 2u; width > 0u; width >>= 1) {
+    for (uint width = ROLLED(GROUP_SIZE / 2u); width > 0u; width >>= 1) {
         if (lane < width) partial[lane] += partial[lane + width];
         barrier();
     }
@@ -44,25 +44,25 @@ void main() {
     uint first = block * SCAN_BLOCK + lane * (SCAN_BLOCK / GROUP_SIZE);
     Value before = sumOfEarlierBlocks(block, lane);
     Value sum = Value(0);
-    for (uint k = 0u; k < SCAN_BLOCK / GROUP_SIZE; k++) {
+    for (uint k = 0u; k < ROLLED(SCAN_BLOCK / GROUP_SIZE); k++) {
         sum += first + k < n ? values[min(first + k, n - 1u)] : Value(0);
     }
     partial[lane] = sum;
     barrier();
-    for (uint step = 1u; step < GROUP_SIZE; step <<= 1) {
+    for (uint step = 1u; step < ROLLED(GROUP_SIZE); step <<= 1) {
         Value left = lane >= step ? partial[lane - step] : Value(0);
         barrier();
         partial[lane] += left;
         barrier();
     }
     Value running = before + partial[lane] - sum;
-    for (uint k = 0u; k < SCAN_BLOCK / GROUP_SIZE; k++) {
+    for (uint k = 0u; k < ROLLED(SCAN_BLOCK / GROUP_SIZE); k++) {
         if (first + k <= n) offsets[first + k] = running;
         running += first + k < n ? values[min(first + k, n - 1u)] : Value(0);
         if (first + k + 1u == n) {
             offsets[n] = running;
 #if CHANNELS == 4
-            for (uint c = 0u; c < 4u; c++) {
+            for (uint c = 0u; c < ROLLED(4); c++) {
                 if (published[c] != NO_INDEX) publishCount(published[c], running[c], capacity[c]);
             }
 #else

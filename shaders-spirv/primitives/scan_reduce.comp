@@ -20,12 +20,12 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     uint first = flatGroup() * SCAN_BLOCK + lane * (SCAN_BLOCK / GROUP_SIZE);
     Value sum = Value(0);
-    for (uint k = 0u; k < SCAN_BLOCK / GROUP_SIZE; k++) {
+    for (uint k = 0u; k < ROLLED(SCAN_BLOCK / GROUP_SIZE); k++) {
         sum += first + k < n ? values[min(first + k, n - 1u)] : Value(0);
     }
     partial[lane] = sum;
     barrier();
-    for (uint width = GROUP_SIZE / 2u; width > 0u; width >>= 1) {
+    for (uint width = ROLLED(GROUP_SIZE / 2u); width > 0u; width >>= 1) {
         if (lane < width) partial[lane] += partial[lane + width];
         barrier();
     }

@@ -20,7 +20,7 @@ layout(push_constant) uniform Push {
 
 bool same(uint a, uint b) {
     bool equal = true;
-    for (uint k = 0u; k < WORDS; k++) equal = equal && points[WORDS * a + k] == points[WORDS * b + k];
+    for (uint k = 0u; k < ROLLED(WORDS); k++) equal = equal && points[WORDS * a + k] == points[WORDS * b + k];
     return equal;
 }
 
@@ -29,7 +29,7 @@ void main() {
     uint n = length_count == NO_INDEX ? length : counts[length_count];
     if (id >= n || counts[STATUS_FAILED] != 0u) return;
     uint hash = 0x811c9dc5u;
-    for (uint k = 0u; k < WORDS; k++) {
+    for (uint k = 0u; k < ROLLED(WORDS); k++) {
         hash = (hash ^ points[WORDS * id + k]) * 0x01000193u;
         hash ^= hash >> 15;
     }

@@ -66,7 +66,7 @@ TEST_F(Cli, ShatterWritesFragmentsAndReportsThem) {
 TEST_F(Cli, TheSameSeedGivesTheSameBytes) {
     const auto shatter = [&](const std::string& name, const std::string& seed, const std::string& threads) {
         const Outcome run =
-            runProgram("brittle", {"shatter", "builtin:bumpy:3", "-o", path(name), "--sites", "30", "--seed", seed},
+            runProgram("brittle", {"shatter", "builtin:ring", "-o", path(name), "--sites", "50", "--seed", seed},
                        {"LP_NUM_THREADS=" + threads});
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return fileBytes(path(name));

@@ -106,10 +106,10 @@ TEST(Barriers, IndirectArgumentsAreARead) {
 TEST(Barriers, TransfersCount) {
     Recording r;
     r.commands.fill(r.a, 1);
-    r.readWrite(r.a, r.b);         // after the fill
-    r.commands.copy(r.b, r.c);     // after the kernel
-    r.commands.fill(r.b, 2);       // after the copy has read
-    r.commands.fill(r.a, 3);       // the kernel's read of it lies before two barriers
+    r.readWrite(r.a, r.b);     // after the fill
+    r.commands.copy(r.b, r.c); // after the kernel
+    r.commands.fill(r.b, 2);   // after the copy has read
+    r.commands.fill(r.a, 3);   // the kernel's read of it lies before two barriers
     EXPECT_EQ(r.barriers(), 3u);
 }
 

@@ -53,8 +53,10 @@ public:
         std::vector<uint32_t> indices;
         addCube(vertices, indices);
         const std::vector<gpu::DrawCommand> draws = {
-            {36, 1, 0, 0, 0}, {0, 0, 0, 0, 1},  // all six faces, and none
-            {30, 1, 0, 0, 2}, {6, 1, 30, 0, 3}, // five faces, and the one towards +z
+            {36, 1, 0, 0, 0},
+            {0, 0, 0, 0, 1}, // all six faces, and none
+            {30, 1, 0, 0, 2},
+            {6, 1, 30, 0, 3}, // five faces, and the one towards +z
         };
         EXPECT_TRUE(commands_.begin());
         vertices_ = onDevice(asWords(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -136,7 +138,8 @@ TEST(Renderer, NearerHidesFarther) {
     const Camera camera = frameBounds({-1, -1, -4}, {1, 1, 4}, float(kWidth) / kHeight, {0, 0, 1});
     for (const float left_depth : {-3.0f, 3.0f}) {
         DrawScene scene = cubes.scene();
-        const Buffer matrices = upload(device(), asWords<gpu::ObjectMatrix>({placedAt(0, 0, left_depth), placedAt(0, 0, -left_depth)}));
+        const Buffer matrices =
+            upload(device(), asWords<gpu::ObjectMatrix>({placedAt(0, 0, left_depth), placedAt(0, 0, -left_depth)}));
         scene.matrices = matrices;
         const auto picture = renderer->draw(scene, camera, {}, left_depth < 0 ? cubes.released() : std::vector<BufferView>{});
         ASSERT_TRUE(picture);

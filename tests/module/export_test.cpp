@@ -25,7 +25,8 @@ public:
     ~Folder() { std::filesystem::remove_all(path_); }
     std::string operator/(const char* name) const { return (path_ / name).string(); }
     size_t fileCount() const {
-        return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+        return static_cast<size_t>(
+            std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
     }
 
 private:
@@ -86,9 +87,7 @@ TEST(Glb, KeepsAVertexOnceAndAttributesApart) {
     EXPECT_EQ(json["scenes"][0]["nodes"], nlohmann::json({0, 1}));
 }
 
-TEST(Glb, SameFragmentsSameBytes) {
-    EXPECT_EQ(*encodeGlb(support::cubeInTwo().set), *encodeGlb(support::cubeInTwo().set));
-}
+TEST(Glb, SameFragmentsSameBytes) { EXPECT_EQ(*encodeGlb(support::cubeInTwo().set), *encodeGlb(support::cubeInTwo().set)); }
 
 TEST(Glb, FragmentsWithoutOneOfTheSides) {
     FragmentSet set = support::cubeInTwo().set;

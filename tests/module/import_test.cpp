@@ -82,7 +82,8 @@ TEST(ImportObj, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(errorOf(readObj("v 0 0 0\n\nv 1 1e999 0\n")).substr(0, 7), "line 3:");
     EXPECT_EQ(errorOf(readObj("v 0 0\n")).substr(0, 7), "line 1:");
     EXPECT_EQ(errorOf(readObj("v 0 0 x\n")).substr(0, 7), "line 1:");
-    for (const char* face : {"f 1 2 4", "f 0 1 2", "f -4 1 2", "f 1 2", "f 1 2 a", "f 1/1 2 3", "f 1//1 2 3", "f 1 2 99999999999999999999"})
+    for (const char* face :
+         {"f 1 2 4", "f 0 1 2", "f -4 1 2", "f 1 2", "f 1 2 a", "f 1/1 2 3", "f 1//1 2 3", "f 1 2 99999999999999999999"})
         EXPECT_EQ(errorOf(readObj(std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n") + face)).substr(0, 7), "line 4:") << face;
     EXPECT_FALSE(readObj("v 0 0 0\nv 1 0 0\nv 0 1 0\n"));
     EXPECT_FALSE(readObj(""));
@@ -133,10 +134,11 @@ TEST(ImportStl, CountsThatLie) {
 }
 
 TEST(ImportPly, TextWithOtherElements) {
-    const auto mesh = readPly("ply\r\nformat ascii 1.0\r\ncomment c\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\n"
-                              "property double z\r\nproperty float s\r\nproperty float t\r\nelement edge 1\r\nproperty int a\r\n"
-                              "property list uchar int b\r\nelement face 1\r\nproperty list uchar uint vertex_index\r\nend_header\r\n"
-                              "0 0 0 .5 1\r\n1 0 0 0 0\r\n0 1 0 0 0\r\n7 2 1 1\r\n3 0 1 2\r\n");
+    const auto mesh =
+        readPly("ply\r\nformat ascii 1.0\r\ncomment c\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\n"
+                "property double z\r\nproperty float s\r\nproperty float t\r\nelement edge 1\r\nproperty int a\r\n"
+                "property list uchar int b\r\nelement face 1\r\nproperty list uchar uint vertex_index\r\nend_header\r\n"
+                "0 0 0 .5 1\r\n1 0 0 0 0\r\n0 1 0 0 0\r\n7 2 1 1\r\n3 0 1 2\r\n");
     ASSERT_TRUE(mesh) << errorOf(mesh);
     EXPECT_EQ(mesh->triangles, (std::vector<Index3>{{0, 1, 2}}));
     EXPECT_EQ(mesh->corner_uvs[0], (Float2{.5f, 0}));
@@ -215,10 +217,14 @@ TEST(Import, SpoiledFilesDoNoHarm) {
     const std::array<std::pair<Reader, std::string>, 5> sources = {{
         {readObj, std::string(kTetrahedronObj) + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\n"},
         {readOff, "NOFF\n4 4 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n0 0 1 0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"},
-        {readPly, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                  "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-        {readPly, std::string("ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty char x\nproperty char y\nproperty char z\n"
-                              "element face 1\nproperty list uchar uchar vertex_index\nend_header\n\1\2\3\3\0\0\0", 164)},
+        {readPly,
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+         "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {readPly,
+         std::string(
+             "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty char x\nproperty char y\nproperty char z\n"
+             "element face 1\nproperty list uchar uchar vertex_index\nend_header\n\1\2\3\3\0\0\0",
+             164)},
         {readStl, binaryStl(3, 3)},
     }};
     std::mt19937 random(11);
@@ -245,7 +251,8 @@ TEST(Import, SpoiledFilesDoNoHarm) {
 
 TEST(Import, EveryFormatReadsASharedModel) {
     SKIP_WITHOUT_MESHES();
-    for (const char* name : {"ico4.obj", "fandisk.off", "seaVase.ply", "gearwheel.bin.stl", "WaterBottle.glb", "spider.fbx", "abdomen.dae"})
+    for (const char* name :
+         {"ico4.obj", "fandisk.off", "seaVase.ply", "gearwheel.bin.stl", "WaterBottle.glb", "spider.fbx", "abdomen.dae"})
         EXPECT_EQ(errorOf(importMesh(support::sharedMesh(name))), "") << name;
     EXPECT_EQ(refusal(support::sharedMesh("Box-cr-line-ends.ply")), "");
     EXPECT_EQ(refusal(support::sharedMesh("abdomen.dae")), "");

@@ -98,7 +98,8 @@ TEST(Check, TrianglesThatDoNotPairUp) {
 }
 
 TEST(Check, SolidsMayTouch) {
-    for (const Double3& by : {Double3{1, 0, 0}, Double3{1, 1, 0}, Double3{1, 1, 1}, Double3{1, 0.5, 0.25}}) { // face, edge, corner, part
+    for (const Double3& by :
+         {Double3{1, 0, 0}, Double3{1, 1, 0}, Double3{1, 1, 1}, Double3{1, 0.5, 0.25}}) { // face, edge, corner, part
         const MeshReport report = inspect(makeCube() + moved(makeCube(), 1, by));
         const bool shares_triangles = by == Double3{1, 0, 0};
         EXPECT_EQ(report.self_intersection.crossing_pairs, 0u);
@@ -134,7 +135,8 @@ TEST(Check, CavitiesAndWhatLiesInThem) {
 TEST(Check, ManyCavities) {
     ImportedMesh cheese = moved(makeCube(), 10, {0, 0, 0});
     for (int k = 0; k < 125; ++k)
-        cheese = cheese + turnedOver(moved(makeIcosphere(1), 0.4, {k % 5 * 1.5 - 3.0, k / 5 % 5 * 1.5 - 3.0, k / 25 * 1.5 - 3.0}));
+        cheese =
+            cheese + turnedOver(moved(makeIcosphere(1), 0.4, {k % 5 * 1.5 - 3.0, k / 5 % 5 * 1.5 - 3.0, k / 25 * 1.5 - 3.0}));
     const MeshReport report = inspect(cheese);
     EXPECT_TRUE(report.isSound());
     EXPECT_EQ(report.cavities, 125u);
@@ -157,15 +159,16 @@ TEST(Penetration, OfTrianglesThatAreKnown) {
     // A blade through the middle, its tip `depth` below.
     for (const double depth : {1.0, 1e-3, 1e-8})
         EXPECT_NEAR(penetrationDepth(floor, triangleAt({0, 0, -depth}, {1, 1, 2}, {-1, 1, 2})), depth, 1e-12);
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({0, 0, 0}, {1, 1, 2}, {-1, 1, 2})), 0);      // a corner on it
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({0, 0, 1e-9}, {1, 1, 2}, {-1, 1, 2})), 0);   // above it
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({-1, 0, 0}, {1, 0, 0}, {0, 1, 0})), 0);      // in its plane
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({9, 0, -1}, {9, 1, 1}, {9, -1, 1})), 0);     // beside it
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({0, 0, -1}, {0, 0, 1}, {0, 0, 3})), 1);      // a triangle that is only a line
-    EXPECT_EQ(penetrationDepth(triangleAt({-1, 0, 0}, {1, 0, 0}, {2, 0, 0}), triangleAt({0, 0, -1}, {0, 0, 1}, {0, 0, 3})), 0); // two
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({-4, -4, 0}, {4, -4, 0}, {0, 0, 5})), 0);    // across an edge
-    EXPECT_EQ(penetrationDepth(floor, triangleAt({-4, -4, 0}, {-9, 0, 1}, {-9, 0, -1})), 0);  // at a corner, pointing away
-    EXPECT_GT(penetrationDepth(floor, triangleAt({-4, -4, 0}, {3, 1, 1}, {3, 1, -1})), 0.1);  // at a corner, through it
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({0, 0, 0}, {1, 1, 2}, {-1, 1, 2})), 0);    // a corner on it
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({0, 0, 1e-9}, {1, 1, 2}, {-1, 1, 2})), 0); // above it
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({-1, 0, 0}, {1, 0, 0}, {0, 1, 0})), 0);    // in its plane
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({9, 0, -1}, {9, 1, 1}, {9, -1, 1})), 0);   // beside it
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({0, 0, -1}, {0, 0, 1}, {0, 0, 3})), 1);    // a triangle that is only a line
+    EXPECT_EQ(penetrationDepth(triangleAt({-1, 0, 0}, {1, 0, 0}, {2, 0, 0}), triangleAt({0, 0, -1}, {0, 0, 1}, {0, 0, 3})),
+              0);                                                                            // two
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({-4, -4, 0}, {4, -4, 0}, {0, 0, 5})), 0);   // across an edge
+    EXPECT_EQ(penetrationDepth(floor, triangleAt({-4, -4, 0}, {-9, 0, 1}, {-9, 0, -1})), 0); // at a corner, pointing away
+    EXPECT_GT(penetrationDepth(floor, triangleAt({-4, -4, 0}, {3, 1, 1}, {3, 1, -1})), 0.1); // at a corner, through it
 }
 
 TEST(Penetration, DoesNotDependOnOrderOrPlace) {
@@ -206,18 +209,30 @@ TEST(Check, SharedModels) {
         uint32_t components, open_edges, crossings;
     };
     static constexpr Expected kModels[] = {
-        {"ico4.obj", true, 1, 0, 0},           {"spot_low_resolution.obj", true, 1, 0, 0},
-        {"utah_teapot.stl", true, 1, 0, 0},    {"bunny_hr.obj", true, 1, 0, 0},
-        {"fandisk.off", true, 1, 0, 0},        {"gearwheel.bin.stl", true, 1, 0, 0},
-        {"torus.obj", true, 1, 0, 0},          {"trefoil.obj", true, 1, 0, 0},
-        {"cheese.off", true, 1, 0, 0},         {"couplingdown.off", true, 1, 0, 0},
-        {"goblet-Vase.stl", true, 1, 0, 0},    {"hundred_cubes.obj", true, 100, 0, 0},
-        {"armadillo.obj", true, 1, 0, 0},      {"thingi10k-908460.stl", true, 1, 0, 0},
-        {"thingi10k-99865.stl", true, 4, 0, 0}, {"1002_tray_bottom.STL", true, 1, 0, 0},
-        {"nefertiti-lowres.obj", true, 1, 0, 0}, {"sword.obj", true, 1, 0, 0},
-        {"ellipe0.003.off", true, 1, 0, 0},    {"capsule.obj", true, 1, 0, 0},
-        {"bones.off", false, 26, 0, 366},      {"moebius.obj", false, 1, 112, 0},
-        {"elephant-with-holes.off", false, 1, 1353, 0}, {"terrain.ply", false, 1, 412, 0},
+        {"ico4.obj", true, 1, 0, 0},
+        {"spot_low_resolution.obj", true, 1, 0, 0},
+        {"utah_teapot.stl", true, 1, 0, 0},
+        {"bunny_hr.obj", true, 1, 0, 0},
+        {"fandisk.off", true, 1, 0, 0},
+        {"gearwheel.bin.stl", true, 1, 0, 0},
+        {"torus.obj", true, 1, 0, 0},
+        {"trefoil.obj", true, 1, 0, 0},
+        {"cheese.off", true, 1, 0, 0},
+        {"couplingdown.off", true, 1, 0, 0},
+        {"goblet-Vase.stl", true, 1, 0, 0},
+        {"hundred_cubes.obj", true, 100, 0, 0},
+        {"armadillo.obj", true, 1, 0, 0},
+        {"thingi10k-908460.stl", true, 1, 0, 0},
+        {"thingi10k-99865.stl", true, 4, 0, 0},
+        {"1002_tray_bottom.STL", true, 1, 0, 0},
+        {"nefertiti-lowres.obj", true, 1, 0, 0},
+        {"sword.obj", true, 1, 0, 0},
+        {"ellipe0.003.off", true, 1, 0, 0},
+        {"capsule.obj", true, 1, 0, 0},
+        {"bones.off", false, 26, 0, 366},
+        {"moebius.obj", false, 1, 112, 0},
+        {"elephant-with-holes.off", false, 1, 1353, 0},
+        {"terrain.ply", false, 1, 412, 0},
     };
     for (const Expected& expected : kModels) {
         const auto imported = importMesh(support::sharedMesh(expected.name));

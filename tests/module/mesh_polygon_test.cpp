@@ -56,8 +56,8 @@ TEST(Polygon, CornersOnAStraightLine) {
 
 TEST(Polygon, HoleReachedByABridge) {
     // A square of side 3 with a square hole of side 1, joined by an edge that is walked both ways.
-    expectTriangulation({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}},
-                        8);
+    expectTriangulation(
+        {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}}, 8);
 }
 
 TEST(Polygon, WindsAsTheOutlineDoesWhateverItsPlane) {

@@ -32,7 +32,8 @@ void addTriangle(FragmentSet& set, const Fragment& fragment, const reference::Tr
 }
 
 // `inner_face` of the six, in the order of boxTriangles.
-void addBox(FragmentSet& set, const reference::Point& lower, const reference::Point& upper, size_t inner_face, const brittle::Double3& site) {
+void addBox(FragmentSet& set, const reference::Point& lower, const reference::Point& upper, size_t inner_face,
+            const brittle::Double3& site) {
     Fragment fragment;
     fragment.cell = static_cast<uint32_t>(set.fragments.size());
     fragment.first_vertex = static_cast<uint32_t>(set.vertices.size());

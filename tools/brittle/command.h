@@ -13,6 +13,7 @@ using AddCommand = void (*)(CLI::App& app, int& exit_code);
 void addShatter(CLI::App& app, int& exit_code);
 void addDevices(CLI::App& app, int& exit_code);
 void addDoctor(CLI::App& app, int& exit_code);
+void addBench(CLI::App& app, int& exit_code); // in tools/bench
 
 // Prints "brittle: MESSAGE" as one line on stderr.
 int fail(const engine::Error& error);

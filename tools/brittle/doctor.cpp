@@ -40,8 +40,9 @@ void printText(const std::string& name, const brittle::PreparedMesh& model, cons
     std::printf("  edges:       %u open, %u turned over, %u that do not pair up, %u where surfaces touch\n", report.open_edges,
                 report.inconsistent_edges, report.nonmanifold_edges, report.shared_edges);
     std::printf("  triangles:   %u doubled, %u without area\n", report.duplicate_triangles, report.flat_triangles);
-    std::printf("  crossings:   %u pairs cross, %u only touch (less than 1e-6 of the diagonal deep); deepest %s of the diagonal\n",
-                found.crossing_pairs, found.touching_pairs, formatNumber(found.deepest.depth / report.measures.diagonal).c_str());
+    std::printf(
+        "  crossings:   %u pairs cross, %u only touch (less than 1e-6 of the diagonal deep); deepest %s of the diagonal\n",
+        found.crossing_pairs, found.touching_pairs, formatNumber(found.deepest.depth / report.measures.diagonal).c_str());
     for (const std::string& problem : report.problems)
         std::printf("  problem:     %s\n", problem.c_str());
 }
@@ -86,8 +87,10 @@ int runDoctor(const std::string& name, bool as_json) {
     showProgress("examining " + name);
     const brittle::MeshReport report = brittle::inspectMesh(model->mesh, model->topology);
     clearProgress();
-    if (as_json) printJson(*model, report);
-    else printText(name, *model, report);
+    if (as_json)
+        printJson(*model, report);
+    else
+        printText(name, *model, report);
     if (report.isSound()) return kOk;
     return fail({engine::ErrorCode::BadInput, name + ": " + report.problems.front()});
 }

@@ -5,14 +5,15 @@
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor, cli::addBench};
 
-constexpr const char* kFooter = "Examples:\n"
-                                "  brittle shatter vase.stl -o pieces.glb\n"
-                                "  brittle shatter builtin:ring -o ring.glb --sites 40 --picture ring.png --explode 0.3\n"
-                                "  brittle doctor vase.stl\n"
-                                "\n"
-                                "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  brittle shatter vase.stl -o pieces.glb\n"
+    "  brittle shatter builtin:ring -o ring.glb --sites 40 --picture ring.png --explode 0.3\n"
+    "  brittle doctor vase.stl\n"
+    "\n"
+    "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
 
 // CLI11 explains usage errors over several lines; one is enough.
 int badUsage(const CLI::ParseError& error) {

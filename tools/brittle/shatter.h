@@ -18,7 +18,7 @@ struct ShatterOptions {
     double explode = 0;
     uint32_t sites = 100;
     uint64_t seed = 1;
-    bool verify = false;  // refuse fragments that break their contract
+    bool verify = false; // refuse fragments that break their contract
     bool as_json = false;
 };
 
@@ -26,7 +26,7 @@ struct ShatterOutcome {
     std::string device;
     brittle::MeshReport model;
     brittle::FractureResult result;
-    brittle::ContractReport contract; // where it was asked for
+    brittle::ContractReport contract;               // where it was asked for
     std::vector<std::pair<std::string, double>> ms; // by what was done, in order; the stages on the device among them
     double total_ms = 0;
 };

@@ -48,7 +48,8 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
     std::printf("model      %s: %s, %s, volume %s\n", options.model.c_str(),
                 formatCount(outcome.model.triangles, "triangle").c_str(), formatCount(outcome.model.components, "part").c_str(),
                 formatNumber(outcome.model.measures.volume).c_str());
-    std::printf("sites      %u asked for, %u used, %u welded\n", counts.sites_requested, counts.sites_used, counts.sites_welded);
+    std::printf("sites      %u asked for, %u used, %u welded\n", counts.sites_requested, counts.sites_used,
+                counts.sites_welded);
     std::printf("cells      %u ok, %u empty, %u merged, %u refused; %u of %u done again exactly\n", counts.cells_ok,
                 counts.cells_empty, counts.cells_merged, counts.cells_refused, counts.exact_redone, counts.exact_total);
     std::printf("fragments  %zu, in %s\n", outcome.result.fragments.fragments.size(), options.output.c_str());
@@ -64,18 +65,21 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
 int runShatter(const ShatterOptions& options) {
     const auto outcome = shatter(options);
     if (!outcome) return fail(outcome.error());
-    if (options.as_json) std::printf("%s\n", toJson(*outcome).dump(2).c_str());
-    else printText(options, *outcome);
+    if (options.as_json)
+        std::printf("%s\n", toJson(*outcome).dump(2).c_str());
+    else
+        printText(options, *outcome);
     return kOk;
 }
 
-constexpr const char* kFooter = "Examples:\n"
-                                "  brittle shatter vase.stl -o pieces.glb --sites 200 --seed 7 --verify\n"
-                                "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
-                                "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
-                                "\n"
-                                "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
-                                "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  brittle shatter vase.stl -o pieces.glb --sites 200 --seed 7 --verify\n"
+    "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
+    "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
+    "\n"
+    "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
+    "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
 
 } // namespace
 
@@ -85,8 +89,8 @@ void addShatter(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<ShatterOptions>();
     command->add_option("MODEL", options->model, "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME")->required();
     command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")->required();
-    CLI::Option* sites =
-        command->add_option("--sites", options->sites, "how many sites, and so about how many fragments")->capture_default_str();
+    CLI::Option* sites = command->add_option("--sites", options->sites, "how many sites, and so about how many fragments")
+                             ->capture_default_str();
     sites->check(CLI::Range(1u, 1u << 24));
     command->add_option("--seed", options->seed, "another seed breaks it otherwise")->capture_default_str();
     command->add_option("--sites-file", options->sites_file, "sites from a text file instead")->excludes(sites);

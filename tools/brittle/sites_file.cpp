@@ -9,7 +9,9 @@
 namespace cli {
 
 engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& path) {
-    const auto bad = [&](const std::string& message) { return engine::Error{engine::ErrorCode::BadInput, path + ": " + message}; };
+    const auto bad = [&](const std::string& message) {
+        return engine::Error{engine::ErrorCode::BadInput, path + ": " + message};
+    };
     std::ifstream file(path, std::ios::binary);
     if (!file) return bad("cannot be opened; check the name");
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});

@@ -39,6 +39,7 @@ public:
             if (entry == kEmpty) {
                 entry = static_cast<uint32_t>(vertices_.size());
                 vertices_.push_back(vertex);
+                return entry;
             }
             if (std::memcmp(&vertices_[entry], &vertex, sizeof vertex) == 0) return entry;
         }
@@ -114,7 +115,8 @@ void GlbEncoder::addMaterial(const char* name, std::array<double, 3> color) {
 }
 
 tinygltf::Value numberList(const Double3& numbers) {
-    return tinygltf::Value(tinygltf::Value::Array{tinygltf::Value(numbers[0]), tinygltf::Value(numbers[1]), tinygltf::Value(numbers[2])});
+    return tinygltf::Value(
+        tinygltf::Value::Array{tinygltf::Value(numbers[0]), tinygltf::Value(numbers[1]), tinygltf::Value(numbers[2])});
 }
 
 void GlbEncoder::addFragment(const Fragment& fragment) {

@@ -32,6 +32,7 @@ OutputFile::~OutputFile() {
 
 engine::Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
     std::error_code error;
+    if (!path.has_filename()) return cannotWrite(path, "it has no name");
     if (std::filesystem::is_directory(path, error)) return cannotWrite(path, "it is a folder");
     std::filesystem::path temporary = path;
     temporary += ".part" + std::to_string(getpid());

@@ -37,7 +37,7 @@ public:
         for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
             auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);
             if (!outcome) return outcome.error();
-            if (!needsMore(outcome->status, capacity)) {
+            if (!capacity.grow(outcome->status.data())) {
                 auto checked = checkStatus(outcome->status);
                 if (!checked) return checked.error();
                 outcome->result.setup_ms = millisecondsSince(start) - outcome->result.total_ms;
@@ -161,16 +161,6 @@ private:
         if (!read) return read.error();
         attempt.status = std::move(*read);
         return attempt;
-    }
-
-    static bool needsMore(const std::vector<uint32_t>& status, Capacities& capacity) {
-        if (status[STATUS_ROUNDS_LEFT] != 0) {
-            capacity.clip_rounds = capacity.clip_rounds * 2 + 8;
-            return true;
-        }
-        if ((status[STATUS_FAILED] & FAILED_CAPACITY) == 0) return false;
-        capacity.grow(status.data() + STATUS_NEEDED);
-        return true;
     }
 
     engine::Device& device_;

@@ -68,7 +68,8 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.fans = size(2.5 * c.polygons);
     c.intervals = size(c.voronoi_edges + c.triples * 0.6);
     c.segments = size(3.0 * c.intervals + 1.2 * c.crossings + 1.5 * c.triples);
-    c.caps = c.segments;
+    c.caps = size(0.62 * c.segments + 1024);
+    c.exact_cells = site_count > 256;
     c.pieces = c.triangles + c.fans + 2 * c.caps;
     c.components = size(std::min<double>(c.pieces, 6 * n + 0.1 * c.triangles + 16384));
     c.fragments = c.components;
@@ -80,7 +81,27 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     return c;
 }
 
-void Capacities::grow(const uint32_t* needed) {
+namespace {
+
+bool takeUp(bool& recorded, bool met) {
+    bool news = met && !recorded;
+    recorded = recorded || met;
+    return news;
+}
+
+} // namespace
+
+bool Capacities::grow(const uint32_t* status) {
+    const uint32_t* needed = status + STATUS_NEEDED;
+    bool more = takeUp(exact_cells, status[COUNT_EXACT_SMALL] != 0);
+    more |= takeUp(medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
+    more |= takeUp(large_cells, status[COUNT_EXACT_LARGE] != 0);
+    more |= takeUp(huge_faces, status[COUNT_HUGE_FACES] != 0);
+    if (status[STATUS_ROUNDS_LEFT] != 0) {
+        clip_rounds = clip_rounds * 2 + 8;
+        more = true;
+    }
+    if ((status[STATUS_FAILED] & FAILED_CAPACITY) == 0) return more;
     auto fit = [&](uint32_t& pool, uint32_t count) {
         if (needed[count] > pool) pool = needed[count] + needed[count] / 4;
     };
@@ -104,6 +125,7 @@ void Capacities::grow(const uint32_t* needed) {
     pieces = triangles + fans + 2 * caps;
     fragments = components;
     emitted = pieces;
+    return true;
 }
 
 namespace {

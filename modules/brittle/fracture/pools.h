@@ -21,12 +21,15 @@ struct Capacities {
     uint32_t intervals = 0, segments = 0, caps = 0, pieces = 0, components = 0, fragments = 0, emitted = 0;
     uint32_t exact_medium = 0, exact_large = 0;
     uint32_t clip_rounds = 0;
+    // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
+    bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false;
 
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
     uint32_t pointTable() const;
     uint32_t edgeTable() const;
-    // Makes room for what a failed attempt found out that it needs; `needed` has one word a count.
-    void grow(const uint32_t* needed);
+    // Makes room for what an attempt found out that it needs, from the words of counts and status it left. False: nothing
+    // is amiss that more room would cure.
+    bool grow(const uint32_t* status);
 };
 
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count);

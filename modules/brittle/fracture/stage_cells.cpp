@@ -29,6 +29,15 @@ CutPush cutPush(const Event& e, uint32_t size_class) {
             next[size_class]};
 }
 
+// One size class; what it cannot hold is queued for the next.
+void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t size_class) {
+    const auto& b = e.b;
+    if (!recorded) return;
+    e.record.runGroups(name, e.record.groupsOf(COUNT_EXACT_SMALL + size_class), cutPush(e, size_class),
+                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
+    if (size_class < 2) e.record.publish(COUNT_EXACT_MEDIUM + size_class, size_class == 0 ? e.capacity.exact_medium : e.capacity.exact_large);
+}
+
 void recordCutting(const Event& e) {
     const auto& b = e.b;
     FastPush fast = {e.grid.bins,
@@ -38,12 +47,9 @@ void recordCutting(const Event& e) {
     e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
     e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
     e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
-    e.record.runGroups("cut_cells_exact", e.record.groupsOf(COUNT_EXACT_SMALL), cutPush(e, 0),
-                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
-    e.record.publish(COUNT_EXACT_MEDIUM, e.capacity.exact_medium);
-    e.record.runGroups("cut_cells_exact_medium", e.record.groupsOf(COUNT_EXACT_MEDIUM), cutPush(e, 1),
-                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
-    e.record.publish(COUNT_EXACT_LARGE, e.capacity.exact_large);
+    recordExact(e, "cut_cells_exact", e.capacity.exact_cells, 0);
+    recordExact(e, "cut_cells_exact_medium", e.capacity.medium_cells, 1);
+    recordExact(e, "cut_cells_exact_large", e.capacity.large_cells, 2);
 }
 
 void recordPacking(const Event& e) {

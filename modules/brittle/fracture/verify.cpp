@@ -37,7 +37,7 @@ private:
         }
         for (size_t slot = hash;; ++slot) {
             uint32_t& entry = slots_[slot & (slots_.size() - 1)];
-            if (entry == kEmpty) entry = v;
+            if (entry == kEmpty) return entry = v; // at once: what is no number equals nothing, not even itself
             if (std::equal(vertices_[v].position, vertices_[v].position + 3, vertices_[entry].position)) return entry;
         }
     }
@@ -54,9 +54,9 @@ struct HalfEdge {
 };
 
 struct InnerTriangle {
-    Index3 corners;   // ascending
+    Index3 corners; // ascending
     uint32_t fragment;
-    int32_t turn;     // +1 or -1: which way round they are walked
+    int32_t turn; // +1 or -1: which way round they are walked
 };
 
 bool isCollapsed(const Index3& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
@@ -179,7 +179,8 @@ void Verifier::checkParts() {
     for (uint32_t t = 0; t < triangles_.size(); ++t) {
         const uint32_t part = root(t);
         const Double3 origin = corner(triangles_[part][0]); // near, so that small parts keep their sign
-        volume[part] += dot(corner(triangles_[t][0]) - origin, cross(corner(triangles_[t][1]) - origin, corner(triangles_[t][2]) - origin));
+        volume[part] +=
+            dot(corner(triangles_[t][0]) - origin, cross(corner(triangles_[t][1]) - origin, corner(triangles_[t][2]) - origin));
     }
     report_.parted_fragments += std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0; }) != 1 ? 1 : 0;
 }
@@ -259,10 +260,10 @@ std::string ContractReport::violation() const {
     const auto too_large = [](double value, double allowed, const char* what) {
         return value <= allowed ? "" : std::string(what) + " of " + formatNumber(value) + ", allowed " + formatNumber(allowed);
     };
-    for (const std::string& problem : {too_large(volume_error, kMaxVolumeError, "a volume error"),
-                                       too_large(area_error, kMaxAreaError, "an area error"),
-                                       too_large(centroid_error, kMaxCentroidError, "a centroid error"),
-                                       too_large(outside_cell, kMaxOutsideCell, "a vertex outside its cell by a share")})
+    for (const std::string& problem :
+         {too_large(volume_error, kMaxVolumeError, "a volume error"), too_large(area_error, kMaxAreaError, "an area error"),
+          too_large(centroid_error, kMaxCentroidError, "a centroid error"),
+          too_large(outside_cell, kMaxOutsideCell, "a vertex outside its cell by a share")})
         if (!problem.empty()) return problem;
     return "";
 }

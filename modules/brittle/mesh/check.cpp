@@ -90,10 +90,14 @@ void Inspector::countEdges() {
     };
     for (size_t e = 0; e < uses.size(); ++e) {
         const uint32_t total = uses[e].up + uses[e].down;
-        if (uses[e].up == uses[e].down) report_.shared_edges += total > 2 ? 1 : 0;
-        else if (total == 1) note(report_.open_edges, 0, e);
-        else if (total == 2) note(report_.inconsistent_edges, 1, e);
-        else note(report_.nonmanifold_edges, 2, e);
+        if (uses[e].up == uses[e].down)
+            report_.shared_edges += total > 2 ? 1 : 0;
+        else if (total == 1)
+            note(report_.open_edges, 0, e);
+        else if (total == 2)
+            note(report_.inconsistent_edges, 1, e);
+        else
+            note(report_.nonmanifold_edges, 2, e);
     }
     complain(report_.open_edges, "open edge", first[0], "close the holes of the surface");
     complain(report_.inconsistent_edges, "edge", first[1], "where the surface turns over; make its faces point outward");
@@ -116,7 +120,8 @@ void Inspector::countTriangles() {
     uint32_t first = 0;
     for (size_t k = 1; k < sorted.size(); ++k)
         if (sorted[k].first == sorted[k - 1].first && report_.duplicate_triangles++ == 0) first = sorted[k].second;
-    complain(report_.duplicate_triangles, "doubled triangle", midpointOf(first), "remove doubled faces, or give the sheet a thickness");
+    complain(report_.duplicate_triangles, "doubled triangle", midpointOf(first),
+             "remove doubled faces, or give the sheet a thickness");
 }
 
 void Inspector::checkVolume() {

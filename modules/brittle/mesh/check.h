@@ -18,7 +18,7 @@ struct MeshReport {
     uint32_t nonmanifold_edges = 0;  // with more triangles that do not pair up
     uint32_t shared_edges = 0;       // with more triangles that do pair up: surfaces that touch there, which is fine
     uint32_t duplicate_triangles = 0;
-    uint32_t flat_triangles = 0;     // without area, which is fine
+    uint32_t flat_triangles = 0; // without area, which is fine
     uint32_t misplaced_components = 0;
     SelfIntersection self_intersection;
     MeshMeasures measures;

@@ -65,7 +65,8 @@ Transform toTransform(const aiMatrix4x4& m) {
     const auto row = [&](unsigned r) {
         return Double3{static_cast<double>(m[r][0]), static_cast<double>(m[r][1]), static_cast<double>(m[r][2])};
     };
-    return {{row(0), row(1), row(2)}, {static_cast<double>(m[0][3]), static_cast<double>(m[1][3]), static_cast<double>(m[2][3])}};
+    return {{row(0), row(1), row(2)},
+            {static_cast<double>(m[0][3]), static_cast<double>(m[1][3]), static_cast<double>(m[2][3])}};
 }
 
 Transform operator*(const Transform& a, const Transform& b) {
@@ -76,9 +77,7 @@ Transform operator*(const Transform& a, const Transform& b) {
     return product;
 }
 
-Double3 toDouble(const aiVector3D& v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
+Double3 toDouble(const aiVector3D& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
 class SceneFlattener {
 public:
@@ -95,7 +94,8 @@ private:
 
 engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene) {
     if (!scene.mRootNode) return badInput("no scene in it; export the model again");
-    std::vector<std::pair<const aiNode*, Transform>> waiting = {{scene.mRootNode, toTransform(scene.mRootNode->mTransformation)}};
+    std::vector<std::pair<const aiNode*, Transform>> waiting = {
+        {scene.mRootNode, toTransform(scene.mRootNode->mTransformation)}};
     while (!waiting.empty()) {
         const auto [node, transform] = waiting.back();
         waiting.pop_back();
@@ -142,7 +142,8 @@ PolygonCorner SceneFlattener::corner(const aiMesh& mesh, uint32_t index, const T
 
 // Libraries' messages may run over lines and pages.
 std::string oneLine(std::string text) {
-    std::replace_if(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
     if (text.size() > 200) text = text.substr(0, 200) + "...";
     return text;
 }

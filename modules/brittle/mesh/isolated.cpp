@@ -116,7 +116,8 @@ engine::Result<std::string> judge(std::string answer, int status) {
 
 engine::Result<std::string> runIsolated(const std::function<std::string()>& work, const IsolationLimits& limits) {
     std::array<int, 2> ends;
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) return engine::Error{engine::ErrorCode::Internal, "no pipe to be had from the system"};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        return engine::Error{engine::ErrorCode::Internal, "no pipe to be had from the system"};
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
@@ -129,7 +130,8 @@ engine::Result<std::string> runIsolated(const std::function<std::string()>& work
     if (child < 0) return engine::Error{engine::ErrorCode::Internal, "no process to be had from the system"};
     if (!in_time) kill(child, SIGKILL);
     const int status = waitFor(child);
-    if (!in_time) return brokenInput("reading it takes longer than " + std::to_string(limits.seconds) + " s; the file is damaged");
+    if (!in_time)
+        return brokenInput("reading it takes longer than " + std::to_string(limits.seconds) + " s; the file is damaged");
     return judge(std::move(answer), status);
 }
 

@@ -10,7 +10,8 @@ MeshMeasures measureMesh(const Mesh& mesh) {
     Box box;
     Double3 moment = {0, 0, 0};
     for (const Index3& t : mesh.triangles) {
-        const Double3 a = toDouble(mesh.positions[t[0]]), b = toDouble(mesh.positions[t[1]]), c = toDouble(mesh.positions[t[2]]);
+        const Double3 a = toDouble(mesh.positions[t[0]]), b = toDouble(mesh.positions[t[1]]),
+                      c = toDouble(mesh.positions[t[2]]);
         const double six_volumes = dot(a, cross(b, c));
         measures.volume += six_volumes / 6;
         measures.area += length(cross(b - a, c - a)) / 2;

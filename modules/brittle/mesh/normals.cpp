@@ -17,9 +17,7 @@ std::array<Double3, 3> cornersOf(const Mesh& mesh, size_t triangle) {
 }
 
 // Zero where a triangle has no area.
-Double3 faceNormal(const std::array<Double3, 3>& p) {
-    return normalized(cross(p[1] - p[0], p[2] - p[0]), {0, 0, 0});
-}
+Double3 faceNormal(const std::array<Double3, 3>& p) { return normalized(cross(p[1] - p[0], p[2] - p[0]), {0, 0, 0}); }
 
 double angleAt(const std::array<Double3, 3>& p, size_t k) {
     const Double3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];

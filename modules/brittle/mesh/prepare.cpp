@@ -31,6 +31,7 @@ public:
             if (entry == kEmpty) {
                 entry = static_cast<uint32_t>(positions.size());
                 positions.push_back(p);
+                return entry;
             }
             if (positions[entry] == p) return entry;
         }

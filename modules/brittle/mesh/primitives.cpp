@@ -60,13 +60,13 @@ struct Sphere {
 Sphere icosahedron() {
     const double g = std::numbers::phi;
     Sphere sphere;
-    sphere.points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    sphere.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     for (Double3& p : sphere.points)
         p = normalized(p, p);
-    sphere.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                        {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                        {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    sphere.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     return sphere;
 }
 
@@ -88,7 +88,8 @@ Sphere subdivided(const Sphere& coarse) {
 }
 
 Float2 sphereUv(const Double3& p) {
-    return {static_cast<float>(0.5 + std::atan2(p[1], p[0]) / (2 * pi)), static_cast<float>(std::acos(std::clamp(p[2], -1.0, 1.0)) / pi)};
+    return {static_cast<float>(0.5 + std::atan2(p[1], p[0]) / (2 * pi)),
+            static_cast<float>(std::acos(std::clamp(p[2], -1.0, 1.0)) / pi)};
 }
 
 // The radius is given as a function of the direction.

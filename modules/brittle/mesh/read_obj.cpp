@@ -142,7 +142,8 @@ const char* ObjReader::readCorner(std::string_view word, PolygonCorner& corner) 
 } // namespace
 
 engine::Result<ImportedMesh> readObj(std::string_view bytes) {
-    if (looksBinary(bytes)) return badInput("binary data where OBJ text was expected; give the file the ending of its real format");
+    if (looksBinary(bytes))
+        return badInput("binary data where OBJ text was expected; give the file the ending of its real format");
     return ObjReader(bytes).run();
 }
 

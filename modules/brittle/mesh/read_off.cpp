@@ -117,7 +117,8 @@ engine::Result<void> OffReader::readFace(size_t number) {
 } // namespace
 
 engine::Result<ImportedMesh> readOff(std::string_view bytes) {
-    if (looksBinary(bytes)) return badInput("binary data where OFF text was expected; give the file the ending of its real format");
+    if (looksBinary(bytes))
+        return badInput("binary data where OFF text was expected; give the file the ending of its real format");
     return OffReader(bytes).run();
 }
 

@@ -16,10 +16,10 @@ enum class Number { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float, Double };
 
 std::optional<Number> numberType(std::string_view name) {
     static constexpr std::pair<std::string_view, Number> kNames[] = {
-        {"char", Number::Int8},     {"uchar", Number::Uint8},   {"short", Number::Int16},   {"ushort", Number::Uint16},
-        {"int", Number::Int32},     {"uint", Number::Uint32},   {"float", Number::Float},   {"double", Number::Double},
-        {"int8", Number::Int8},     {"uint8", Number::Uint8},   {"int16", Number::Int16},   {"uint16", Number::Uint16},
-        {"int32", Number::Int32},   {"uint32", Number::Uint32}, {"float32", Number::Float}, {"float64", Number::Double},
+        {"char", Number::Int8},   {"uchar", Number::Uint8},   {"short", Number::Int16},   {"ushort", Number::Uint16},
+        {"int", Number::Int32},   {"uint", Number::Uint32},   {"float", Number::Float},   {"double", Number::Double},
+        {"int8", Number::Int8},   {"uint8", Number::Uint8},   {"int16", Number::Int16},   {"uint16", Number::Uint16},
+        {"int32", Number::Int32}, {"uint32", Number::Uint32}, {"float32", Number::Float}, {"float64", Number::Double},
     };
     for (const auto& [known, type] : kNames)
         if (known == name) return type;
@@ -100,9 +100,9 @@ private:
     std::string_view bytes_;
     std::vector<Element> elements_;
     MeshBuilder mesh_;
-    std::vector<PolygonCorner> attributes_;                  // of every vertex
+    std::vector<PolygonCorner> attributes_;                   // of every vertex
     std::vector<std::pair<std::string_view, double>> values_; // of the current row, lists left out
-    std::vector<double> list_, indices_, uvs_;               // of the current row
+    std::vector<double> list_, indices_, uvs_;                // of the current row
     std::vector<PolygonCorner> corners_;
 };
 
@@ -131,9 +131,12 @@ const char* PlyReader::readHeaderLine(Words words, Format& format) {
     const std::string_view kind = words.next();
     if (kind == "format") {
         const std::string_view name = words.next();
-        if (name == "binary_little_endian") format = Format::LittleEndian;
-        else if (name == "binary_big_endian") format = Format::BigEndian;
-        else if (name != "ascii") return "a PLY format that is not known";
+        if (name == "binary_little_endian")
+            format = Format::LittleEndian;
+        else if (name == "binary_big_endian")
+            format = Format::BigEndian;
+        else if (name != "ascii")
+            return "a PLY format that is not known";
     } else if (kind == "element") {
         Element& element = elements_.emplace_back();
         element.name = words.next();

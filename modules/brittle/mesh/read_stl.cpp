@@ -66,7 +66,8 @@ engine::Result<ImportedMesh> readText(std::string_view bytes) {
     for (std::string_view word = text.nextWord(); !word.empty(); word = text.nextWord()) {
         is_complete = word == "endsolid";
         if (is_complete || word == "solid") text.nextLine();
-        if (word == "facet" && corner_count != 0) return badLine(text.line(), "a facet that does not end; export the file again");
+        if (word == "facet" && corner_count != 0)
+            return badLine(text.line(), "a facet that does not end; export the file again");
         if (word == "vertex") {
             const auto point = readPoint(text);
             if (!point) return badLine(text.line(), "a vertex needs three numbers");

@@ -62,8 +62,7 @@ SelfIntersection findSelfIntersections(const Mesh& mesh, const TriangleTree& tre
         const double depth = penetrationDepth(a, b, kNoiseDepth * diagonal);
         if (depth == 0) return true;
         ++(depth < kTouchDepth * diagonal ? found.touching_pairs : found.crossing_pairs);
-        if (depth > found.deepest.depth)
-            found.deepest = {s, t, depth, (1.0 / 6) * (a[0] + a[1] + a[2] + b[0] + b[1] + b[2])};
+        if (depth > found.deepest.depth) found.deepest = {s, t, depth, (1.0 / 6) * (a[0] + a[1] + a[2] + b[0] + b[1] + b[2])};
         return found.crossing_pairs < kMaxCrossings;
     });
     return found;

@@ -53,7 +53,7 @@ public:
 private:
     std::string_view rest_;
     size_t line_ = 0;
-    bool inside_line_ = false; // nextWord stopped within line_
+    bool inside_line_ = false;  // nextWord stopped within line_
     bool ends_with_cr_ = false; // lines end at \r alone: a \n after one is the first byte of what follows
 };
 

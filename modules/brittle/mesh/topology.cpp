@@ -10,8 +10,8 @@ namespace {
 
 struct HalfEdge {
     uint32_t low, high;
-    uint32_t index;      // 3 * triangle + corner it starts from
-    bool runs_up;        // from low to high
+    uint32_t index; // 3 * triangle + corner it starts from
+    bool runs_up;   // from low to high
 };
 
 HalfEdge halfEdge(const Mesh& mesh, uint32_t index) {
@@ -34,7 +34,9 @@ std::vector<HalfEdge> sortedHalfEdges(const Mesh& mesh) {
         const HalfEdge edge = halfEdge(mesh, h);
         sorted[next[edge.low]++] = edge;
     }
-    const auto before = [](const HalfEdge& a, const HalfEdge& b) { return a.high != b.high ? a.high < b.high : a.index < b.index; };
+    const auto before = [](const HalfEdge& a, const HalfEdge& b) {
+        return a.high != b.high ? a.high < b.high : a.index < b.index;
+    };
     for (size_t v = 0; v + 1 < first.size(); ++v)
         std::sort(sorted.begin() + first[v], sorted.begin() + first[v + 1], before);
     return sorted;

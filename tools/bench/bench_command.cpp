@@ -1,0 +1,59 @@
+// brittle bench: its options and what it prints.
+#include "tools/bench/bench.h"
+#include "tools/brittle/command.h"
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+namespace cli {
+namespace {
+
+struct Options {
+    bench::BenchOptions bench;
+    std::string device, output;
+    bool cells_only = false, shatter_only = false;
+};
+
+int write(const nlohmann::json& report, const std::string& path) {
+    const std::string text = report.dump(2) + "\n";
+    if (path.empty()) return std::fputs(text.c_str(), stdout) < 0 ? kBadInput : kOk;
+    std::ofstream file(path);
+    file << text;
+    if (!file.flush()) return fail({engine::ErrorCode::BadInput, path + ": cannot be written"});
+    return kOk;
+}
+
+int runBench(Options options) {
+    if (options.cells_only) options.bench.shatter_counts.clear();
+    if (options.shatter_only) options.bench.cell_counts.clear();
+    auto device = engine::Device::create({.select = options.device});
+    if (!device) return fail(device.error());
+    const auto progress = [](const std::string& step) { std::fprintf(stderr, "%s\n", step.c_str()); };
+    const auto report = bench::runBench(**device, options.bench, progress);
+    return report ? write(*report, options.output) : fail(report.error());
+}
+
+constexpr const char* kFooter = "Voro++ and CGAL run alternately with us, on one thread, where the build has them\n"
+                                "(tools/bench.sh builds both). Times are medians, in milliseconds.";
+
+} // namespace
+
+void addBench(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("bench", "Measure cells and whole shatters, next to Voro++ and CGAL.");
+    command->footer(kFooter);
+    auto options = std::make_shared<Options>();
+    command->add_option("-o,--output", options->output, "the JSON file to write, instead of standard output");
+    command->add_option("--rounds", options->bench.rounds, "how often each is measured")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1000u));
+    command->add_option("--cell-counts", options->bench.cell_counts, "numbers of sites in a cube")->capture_default_str();
+    command->add_option("--shatter-counts", options->bench.shatter_counts, "numbers of sites in the bumpy sphere")
+        ->capture_default_str();
+    CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");
+    command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
+    command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
+    command->callback([options, &exit_code] { exit_code = runBench(*options); });
+}
+
+} // namespace cli
