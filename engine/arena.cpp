@@ -17,6 +17,7 @@ Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity,
     auto buffer = Buffer::create(device, capacity, BufferDomain::Device, 0, name);
     if (!buffer) return buffer.error();
     ScratchArena arena;
+    arena.device_ = &device;
     arena.buffer_ = std::make_unique<Buffer>(std::move(*buffer));
     arena.alignment_ = std::max(kMinAlignment, device.limits().minStorageBufferOffsetAlignment);
     return arena;
@@ -31,7 +32,17 @@ BufferView ScratchArena::take(VkDeviceSize bytes) {
         overflowed_ = true;
         return {};
     }
-    return {buffer_.get(), begin, size};
+    return device_->gpuAssistedValidation() ? takeAlone(size) : BufferView(buffer_.get(), begin, size);
+}
+
+BufferView ScratchArena::takeAlone(VkDeviceSize size) {
+    auto buffer = Buffer::create(*device_, size, BufferDomain::Device, 0, buffer_->name());
+    if (!buffer) {
+        overflowed_ = true;
+        return {};
+    }
+    alone_.push_back(std::make_unique<Buffer>(std::move(*buffer)));
+    return *alone_.back();
 }
 
 void ScratchArena::release(Mark mark) {
@@ -43,6 +54,7 @@ void ScratchArena::reset() {
     used_ = 0;
     peak_ = 0;
     overflowed_ = false;
+    alone_.clear();
 }
 
 Result<void> ScratchArena::status() const {

@@ -5,6 +5,7 @@
 #include "engine/buffer.h"
 
 #include <memory>
+#include <vector>
 
 namespace engine {
 
@@ -30,7 +31,13 @@ public:
 
 private:
     ScratchArena() = default;
+    BufferView takeAlone(VkDeviceSize size);
+
+    Device* device_ = nullptr;
     std::unique_ptr<Buffer> buffer_; // views point at it, also when the arena is moved
+    // Under GPU-assisted validation every range is a buffer of its own until the next reset(), for the layer sees only
+    // accesses past the end of a buffer.
+    std::vector<std::unique_ptr<Buffer>> alone_;
     VkDeviceSize alignment_ = 256;
     VkDeviceSize used_ = 0;
     VkDeviceSize peak_ = 0;

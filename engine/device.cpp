@@ -1,7 +1,6 @@
 #include "engine/device.h"
 
 #include <cstdlib>
-#include <cstring>
 
 namespace engine {
 
@@ -13,12 +12,6 @@ std::string wantedDevice(const DeviceOptions& options) {
     if (!options.select.empty()) return options.select;
     const char* environment = std::getenv("BRITTLE_DEVICE");
     return environment != nullptr ? environment : "";
-}
-
-// The GPU-assisted validation of Debian 12 (1.3.239) calls pushed descriptors uninitialized and lets kernels run astray.
-bool pushDescriptorsAreTrusted() {
-    const char* layers = std::getenv("VK_LAYER_ENABLES");
-    return layers == nullptr || std::strstr(layers, "GPU_ASSISTED") == nullptr;
 }
 
 // The first family that has all of `with` and none of `without`.
@@ -53,7 +46,7 @@ Result<void> Device::open(const DeviceOptions& options) {
     properties_ = properties.properties;
     minimal_ = options.minimal;
     if (!minimal_) features_ = optionalFeatures(physical_);
-    if (options.force_pooled_descriptors || !pushDescriptorsAreTrusted()) features_.push_descriptors = false;
+    if (options.force_pooled_descriptors || instance_->gpuAssistedValidation()) features_.push_descriptors = false;
 
     pickFamilies();
     if (auto made = createLogical(); !made) return made;

@@ -60,6 +60,9 @@ public:
 
     // Errors and warnings of the validation layers about this device's instance; 0 without layers.
     uint32_t validationMessageCount() const { return instance_->validationMessageCount(); }
+    // The layer of Debian 12 (1.3.239) misreads push descriptors, and checks accesses against the end of the buffer rather
+    // than of the view: push descriptors are left out, and arenas give every range a buffer of its own.
+    bool gpuAssistedValidation() const { return instance_->gpuAssistedValidation(); }
     // For messages and captures; does nothing without the debug extension.
     void setName(VkObjectType type, uint64_t object, std::string_view name) const;
     bool hasDebugUtils() const { return instance_->hasDebugUtils(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <vector>
@@ -53,6 +54,11 @@ Result<std::unique_ptr<Instance>> Instance::create() {
 Instance::~Instance() {
     if (messenger_ != VK_NULL_HANDLE) vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
     if (handle_ != VK_NULL_HANDLE) vkDestroyInstance(handle_, nullptr);
+}
+
+bool Instance::gpuAssistedValidation() const {
+    const char* layers = std::getenv("VK_LAYER_ENABLES");
+    return layers != nullptr && std::strstr(layers, "GPU_ASSISTED") != nullptr;
 }
 
 void Instance::listen() {

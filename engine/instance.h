@@ -19,6 +19,8 @@ public:
 
     VkInstance handle() const { return handle_; }
     bool hasDebugUtils() const { return messenger_ != VK_NULL_HANDLE; }
+    // Asked for by VK_LAYER_ENABLES.
+    bool gpuAssistedValidation() const;
     uint32_t validationMessageCount() const { return validation_messages_; }
 
 private:

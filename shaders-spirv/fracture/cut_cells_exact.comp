@@ -20,6 +20,7 @@
 #endif
 #define PLANE_TURNS ((PLANES + LANES - 1) / LANES)
 #define CORNER_TURNS ((CORNERS + LANES - 1) / LANES)
+#define SIEVE_CORNERS 160 /* with more corners a look at all of them costs more than the exact test it saves */
 #define LIST_SIZE 1024
 #define LIST_TURNS (LIST_SIZE / LANES)
 #define NEAR_RINGS 6
@@ -36,7 +37,6 @@ READS(3, ivec4, bin_sites); // position and id, bin by bin
 UPDATES(4, uint, queue);    // cells of this kernel, then of the next larger one
 WRITES(5, uint, raw);
 WRITES(6, uvec2, cell_raw); // word offset of the cell in `raw`, and the store's size class
-UPDATES(7, uint, store);
 layout(push_constant) uniform Push {
     ivec4 bins;        // per axis; w: edge of a bin in grid steps
     ivec4 box_low;     // w: first word of this kernel's queue
@@ -47,24 +47,49 @@ layout(push_constant) uniform Push {
     uint next_capacity;
 };
 
+// The cell while it is cut: in shared memory, or for the larger ones in a buffer, a store a workgroup.
 #ifdef GLOBAL_STORE
-#define STORE_WORDS (CORNERS * 16)
-uint store_base;
-uint loadWord(uint t, uint k) { return store[store_base + k * CORNERS + t]; }
-void saveWord(uint t, uint k, uint v) { store[store_base + k * CORNERS + t] = v; }
+struct CellStore {
+    ivec4 plane_d[PLANES];
+    vec4 corner_place[CORNERS];
+    uvec2 plane_r[PLANES];
+    uvec2 corner_planes[CORNERS];
+    int rim_sum[PLANES];
+    int rim_squares[PLANES];
+    uint free_slots[CORNERS];
+    uint corner_store[16 * CORNERS];
+};
+layout(set = 0, binding = 7, std430) coherent buffer stores_block { CellStore stores[]; };
+#define plane_d stores[flatGroup()].plane_d
+#define corner_place stores[flatGroup()].corner_place
+#define plane_r stores[flatGroup()].plane_r
+#define corner_planes stores[flatGroup()].corner_planes
+#define rim_sum stores[flatGroup()].rim_sum
+#define rim_squares stores[flatGroup()].rim_squares
+#define free_slots stores[flatGroup()].free_slots
+#define corner_store stores[flatGroup()].corner_store
 #else
-shared uint corner_store[16 * CORNERS];
-uint loadWord(uint t, uint k) { return corner_store[k * CORNERS + t]; }
-void saveWord(uint t, uint k, uint v) { corner_store[k * CORNERS + t] = v; }
-#endif
-
-shared ivec4 plane_d[PLANES]; // normal, id
+UPDATES(7, uint, store);
+shared ivec4 plane_d[PLANES];        // normal, id
+shared vec4 corner_place[CORNERS];   // w in fp32 and a bound of its error; zero where free
 shared uvec2 plane_r[PLANES];
 shared uvec2 corner_planes[CORNERS]; // a | b << 16, c; NO_CORNER when free
 shared int rim_sum[PLANES];
 shared int rim_squares[PLANES];
 shared uint free_slots[CORNERS];
-shared vec4 corner_place[CORNERS]; // w in fp32 and a bound of its error; zero where free
+shared uint corner_store[16 * CORNERS]; // moment and volume
+#endif
+
+uint loadWord(uint t, uint k) { return corner_store[k * CORNERS + t]; }
+void saveWord(uint t, uint k, uint v) { corner_store[k * CORNERS + t] = v; }
+
+void sync() {
+#ifdef GLOBAL_STORE
+    memoryBarrierBuffer();
+#endif
+    barrier();
+}
+
 shared uint list_key[LIST_SIZE];
 shared uint list_site[LIST_SIZE];
 shared uint scan_sum[LANES];
@@ -124,7 +149,7 @@ void startFromBox(uint lane, ivec3 site) {
         int distance = high ? box_high[axis] - site[axis] : site[axis] - box_low[axis];
         setPlane(lane, d, BOX_BASE + lane, int64_t(2 * distance));
     }
-    barrier();
+    sync();
     if (lane < 8u) {
         uint x = lane & 1u, y = 2u + ((lane >> 1) & 1u), z = 4u + (lane >> 2);
         bool odd = ((lane ^ (lane >> 1) ^ (lane >> 2)) & 1u) != 0u;
@@ -132,9 +157,12 @@ void startFromBox(uint lane, ivec3 site) {
     }
 }
 
+// Corners lie in the lowest slots: a cut frees as many as it removes and needs at most two more.
+uint turnsInUse() { return min(uint(CORNER_TURNS), corner_top / LANES + 1u); }
+
 void measureReach(uint lane) {
-    uint reach = 0u;
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
+    uint reach = 0u, turns = turnsInUse();
+    for (uint k = 0u; k < turns; k++) {
         uint t = k * LANES + lane;
         vec3 w = corner_place[min(t, CORNERS - 1u)].xyz;
         reach = max(reach, floatBitsToUint(dot(w, w) * 1.0001));
@@ -145,12 +173,15 @@ void measureReach(uint lane) {
 // Prefix sum over lanes of two 16-bit counters at once; returns the sum before this lane, scan_sum holds the rest.
 uint scanLanes(uint lane, uint value) {
     scan_sum[lane] = value;
-    barrier();
-    for (uint step = 1u; step < LANES; step <<= 1) {
+    sync();
+    // Four-way: half the steps of the usual doubling, each with three terms.
+    for (uint step = 1u; step < LANES; step <<= 2) {
         uint left = lane >= step ? scan_sum[lane - step] : 0u;
-        barrier();
+        left += lane >= 2u * step ? scan_sum[lane - 2u * step] : 0u;
+        left += lane >= 3u * step ? scan_sum[lane - 3u * step] : 0u;
+        sync();
         scan_sum[lane] += left;
-        barrier();
+        sync();
     }
     return scan_sum[lane] - value;
 }
@@ -162,7 +193,7 @@ void selectNearest(uint lane) {
         best_slot = NO_INDEX;
         removed_count = 0u;
     }
-    barrier();
+    sync();
     uint key = NO_INDEX, slot = NO_INDEX;
     for (uint k = 0u; k * LANES < list_count; k++) {
         uint s = k * LANES + lane;
@@ -171,14 +202,15 @@ void selectNearest(uint lane) {
         key = min(key, candidate);
     }
     atomicMin(best_key, key);
-    barrier();
+    sync();
     if (key == best_key && key != NO_INDEX) atomicMin(best_slot, slot);
-    barrier();
+    sync();
 }
 
 // Marks corners that plane e removes, and adds their differences to the rim sums of their planes.
 void removeCorners(uint lane, uint self, Plane e) {
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
+    uint turns = turnsInUse();
+    for (uint k = 0u; k < turns; k++) {
         uint t = min(k * LANES + lane, CORNERS - 1u);
         uvec2 planes = corner_planes[t];
         bool live = k * LANES + lane < CORNERS && planes.y != NO_CORNER;
@@ -198,28 +230,28 @@ void removeCorners(uint lane, uint self, Plane e) {
             atomicAdd(rim_squares[c], ia * ia - ib * ib);
         }
     }
-    barrier();
+    sync();
 }
 
 // Gives every rim plane a free slot for its new corner; false when the slots are used up.
 bool closeRim(uint lane, uint e) {
-    uint mine = 0u;
+    uint mine = 0u, turns = turnsInUse();
     for (uint k = 0u; k < PLANE_TURNS; k++) {
         uint p = lane * PLANE_TURNS + k;
         if (p < PLANES && rim_sum[min(p, PLANES - 1u)] != 0) mine += 1u;
     }
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
-        uint t = lane * CORNER_TURNS + k;
+    for (uint k = 0u; k < turns; k++) {
+        uint t = k * LANES + lane;
         if (t < CORNERS && corner_planes[min(t, CORNERS - 1u)].y == NO_CORNER) mine += 0x10000u;
     }
     uint before = scanLanes(lane, mine);
     uint total = scan_sum[LANES - 1];
     uint slot = before >> 16, rank = before & 0xffffu;
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
-        uint t = lane * CORNER_TURNS + k;
+    for (uint k = 0u; k < turns; k++) {
+        uint t = k * LANES + lane;
         if (t < CORNERS && corner_planes[min(t, CORNERS - 1u)].y == NO_CORNER) free_slots[slot++] = t;
     }
-    barrier();
+    sync();
     bool fits = (total & 0xffffu) <= (total >> 16);
     for (uint k = 0u; k < PLANE_TURNS; k++) {
         uint p = lane * PLANE_TURNS + k;
@@ -240,18 +272,19 @@ bool closeRim(uint lane, uint e) {
 // Whether a bisector may still reach the cell, a candidate a lane: the cell only shrinks, so a no is for good.
 bool mayReach(vec3 d) {
     float size = length(d), furthest = 0.0;
-    for (uint k = 0u; k < corner_top; k++) furthest = max(furthest, dot(d, corner_place[k].xyz) + size * corner_place[k].w);
-    return furthest >= dot(d, d) * (1.0 - kPlaceError);
+    uint looked = corner_top <= SIEVE_CORNERS ? corner_top : 0u;
+    for (uint k = 0u; k < looked; k++) furthest = max(furthest, dot(d, corner_place[k].xyz) + size * corner_place[k].w);
+    return looked == 0u || furthest >= dot(d, d) * (1.0 - kPlaceError);
 }
 
 // Strikes out what can no longer cut, a candidate a lane: most candidates end here, and never cost an exact test.
 void sieveList(uint lane, ivec3 site) {
-    uint total = list_count;
+    uint total = corner_top <= SIEVE_CORNERS ? list_count : 0u;
     for (uint k = lane; k < total; k += LANES) {
         uint listed = list_key[k];
         if (listed != NO_INDEX && !mayReach(vec3(sites[list_site[k]].xyz - site))) list_key[k] = NO_INDEX;
     }
-    barrier();
+    sync();
 }
 
 // Lists the sites of one row of bins that may still cut; sites of rings seen before are passed over.
@@ -288,9 +321,6 @@ void main() {
     bool idle = counts[STATUS_FAILED] != 0u || (!queued && group >= min(cell_count, counts[COUNT_SITES]));
     self = idle ? 0u : self;
     ivec3 site = sites[self].xyz;
-#ifdef GLOBAL_STORE
-    store_base = group * STORE_WORDS;
-#endif
     for (uint k = 0u; k < PLANE_TURNS; k++) {
         uint p = k * LANES + lane;
         if (p < PLANES) {
@@ -309,11 +339,11 @@ void main() {
         list_count = 0u;
         corner_top = 0u;
     }
-    barrier();
+    sync();
     startFromBox(lane, site);
-    barrier();
+    sync();
     measureReach(lane);
-    barrier();
+    sync();
 
     ivec3 home = min((site - box_low.xyz) / bins.w, bins.xyz - 1);
     int ring = 0, seen_ring = -1;
@@ -341,9 +371,9 @@ void main() {
             bool ended = first + row_done >= last;
             row += ended ? 1u : 0u;
             row_done = ended ? 0u : row_done;
-            barrier();
+            sync();
             room = list_count + LANES <= LIST_SIZE;
-            barrier();
+            sync();
         }
         // Cut by what is listed, near to far.
         for (uint step = 0u; step < 8192u; step++) {
@@ -351,7 +381,7 @@ void main() {
             uint slot = best_slot;
             bool more = slot != NO_INDEX;
             uint id = list_site[min(slot, LIST_SIZE - 1u)];
-            barrier();
+            sync();
             if (!more) break;
             if (lane == 0u) list_key[slot] = NO_INDEX;
             ivec3 d = sites[id].xyz - site;
@@ -365,13 +395,13 @@ void main() {
             if (cuts && !fits) status = CELL_OVERFLOW;
             plane_count += cuts ? 1u : 0u;
             if (lane == 0u && cuts) reach_bits = 0u;
-            barrier();
+            sync();
             measureReach(lane);
-            barrier();
+            sync();
             sieveList(lane, site);
             if (status != CELL_OK) break;
         }
-        barrier();
+        sync();
         if (lane == 0u) list_count = 0u;
         bool ring_done = row >= rows;
         if (ring_done) {
@@ -384,7 +414,7 @@ void main() {
             row = 0u;
         }
         finished = finished || status != CELL_OK;
-        barrier();
+        sync();
     }
     if (!finished) status = CELL_OVERFLOW;
 

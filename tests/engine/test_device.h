@@ -36,7 +36,6 @@ void finish(engine::Commands& commands);
 // Whether the validation layers are listening, and how many of their messages the running test means to cause.
 bool validationIsOn();
 bool synchronizationValidationIsOn();
-bool gpuAssistedValidationIsOn();
 void expectValidationMessages(uint32_t count);
 
 } // namespace engine_test

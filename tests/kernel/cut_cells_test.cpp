@@ -74,5 +74,22 @@ TEST(CutCells, WithManyFacesAreDoneAgainWithMoreRoom) {
     EXPECT_EQ(device.cells[0].neighbors.size(), 150u);
 }
 
+TEST(CutCells, WithThreeHundredFaces) {
+    const reference::SiteSet set = hard::snapToGrid(hard::sphereAroundCenter(300, .01)).set;
+    expectSameDiagram(set, cutOnDevice(set));
+}
+
+TEST(LongCutCells, WithTwoThousandFaces) {
+    const reference::SiteSet set = hard::snapToGrid(hard::sphereAroundCenter(2000, .3)).set;
+    expectSameDiagram(set, cutOnDevice(set));
+}
+
+TEST(LongCutCells, OfThreeThousandSitesOnASphere) {
+    hard::HardSites sites = hard::sphereAroundCenter(3000, .3);
+    sites.sites.erase(sites.sites.begin());
+    const reference::SiteSet set = hard::snapToGrid(sites).set;
+    expectSameDiagram(set, cutOnDevice(set));
+}
+
 } // namespace
 } // namespace kernel_test

@@ -8,8 +8,20 @@ namespace {
 
 using reference::SiteSet;
 
-constexpr uint32_t kMediumPlanes = 256, kMediumCorners = 512, kMediumRoom = 1100;
-constexpr uint32_t kMediumWords = 2 + kMediumPlanes + 2 * kMediumCorners;
+// The exact kernels, small to large: what one cannot hold is queued for the next.
+struct SizeClass {
+    const char* kernel;
+    uint32_t planes, corners, room; // room: cells that it may have to do
+    bool wide;                      // a corner is two words instead of one
+    uint32_t words() const { return 2 + planes + (wide ? 2 : 1) * corners; }
+};
+constexpr uint32_t kStoreWords = 17; // a corner's, where the kernel keeps corners in a buffer
+
+std::array<SizeClass, 3> sizeClasses(uint32_t sites) {
+    return {SizeClass{"cut_cells_exact", RAW_PLANES, RAW_CORNERS, sites, false},
+            SizeClass{"cut_cells_exact_medium", 256, 512, sites, true},
+            SizeClass{"cut_cells_exact_large", 2048, 4096, 4, true}};
+}
 
 struct CutPush {
     Int4 bins, box_low, box_high;
@@ -21,30 +33,36 @@ struct FilterPush {
     uint32_t slots;
 };
 
+// Queues and raw cells of the classes lie one after the other.
 CutPush cutPush(const SiteSet& set, const BinnedSites& binned, uint32_t size_class, Path path) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
-    const uint32_t queue[3] = {0, n, n + kMediumRoom};
+    const auto classes = sizeClasses(n);
+    uint32_t queue = 0, raw = 0;
+    for (uint32_t k = 0; k < size_class; ++k) {
+        queue += classes[k].room;
+        raw += classes[k].room * classes[k].words();
+    }
     const auto corner = [](const reference::GridPoint& p, uint32_t w) {
         return Int4{p[0], p[1], p[2], static_cast<int32_t>(w)};
     };
     return {binned.bins,
-            corner(set.box.lower, queue[size_class]),
-            corner(set.box.upper, queue[size_class + 1]),
+            corner(set.box.lower, queue),
+            corner(set.box.upper, queue + classes[size_class].room),
             size_class == 0 && path == Path::Exact ? n : NO_INDEX,
             size_class,
-            size_class * n * RAW_WORDS,
-            size_class == 0 ? kMediumRoom : 0};
+            raw,
+            size_class < 2 ? classes[size_class + 1].room : 0};
 }
 
 // A cell as the kernels leave it: status, counts, the planes' ids, then corners as triples of plane indices.
 struct RawCell {
     const uint32_t* words;
-    bool wide;
+    const SizeClass& size;
     uint32_t planeCount() const { return words[1] & 0xffff; }
     uint32_t cornerCount() const { return words[1] >> 16; }
     std::array<uint32_t, 3> corner(uint32_t t) const {
-        const uint32_t* first = words + 2 + (wide ? kMediumPlanes + 2 * t : RAW_PLANES + t);
-        if (wide) return {first[0] & 0xffff, first[0] >> 16, first[1]};
+        const uint32_t* first = words + 2 + size.planes + (size.wide ? 2 * t : t);
+        if (size.wide) return {first[0] & 0xffff, first[0] >> 16, first[1]};
         return {*first & 0xff, *first >> 8 & 0xff, *first >> 16};
     }
 };
@@ -113,39 +131,51 @@ BinnedSites binSites(const SiteSet& set) {
 
 DeviceCells cutOnDevice(const SiteSet& set, Path path) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
+    const auto classes = sizeClasses(n);
     const BinnedSites binned = binSites(set);
     Counts counts;
     counts[COUNT_SITES] = n;
+    uint32_t queue_words = 1, raw_words = 0, store_words = 1;
+    for (const SizeClass& size : classes) {
+        queue_words += size.room;
+        raw_words += size.room * size.words();
+        if (size.wide) store_words = std::max(store_words, size.room * size.corners * kStoreWords);
+    }
     const engine::Buffer sites = bufferOf(binned.sites), bin_start = bufferOf(binned.bin_start);
-    const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(n + kMediumRoom + 1);
-    const engine::Buffer raw = blankBuffer<uint32_t>(n * RAW_WORDS + kMediumRoom * kMediumWords), at = blankBuffer<Word2>(n);
-    const engine::Buffer store = blankBuffer<uint32_t>(kMediumRoom * kMediumCorners * 17);
+    const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(queue_words);
+    const engine::Buffer raw = blankBuffer<uint32_t>(raw_words), at = blankBuffer<Word2>(n),
+                         store = blankBuffer<uint32_t>(store_words);
     const auto publish = [&](engine::Commands& commands, uint32_t count, uint32_t room) {
         commands.dispatchGroups(kernel("publish_count"), 1, Word2{count, room}, {counts.words, counts.args});
         return engine::BufferView(counts.args).sub(36 * count + 24, 12);
     };
-    const auto record = [&](engine::Commands& commands) {
+    const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
-        const CutPush small = cutPush(set, binned, 0, path), medium = cutPush(set, binned, 1, path);
-        if (path == Path::Filtered) {
-            const FilterPush filter = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n};
-            commands.dispatch(kernel("cut_cells"), n, filter, {counts.words, bin_start, bin_sites, queue, raw, at});
-            commands.dispatchIndirect(kernel("cut_cells_exact"), publish(commands, COUNT_EXACT_SMALL, n), small,
-                                      {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
-        } else {
-            commands.dispatchGroups(kernel("cut_cells_exact"), n, small,
-                                    {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
-        }
-        commands.dispatchIndirect(kernel("cut_cells_exact_medium"), publish(commands, COUNT_EXACT_MEDIUM, kMediumRoom), medium,
-                                  {counts.words, sites, bin_start, bin_sites, queue, raw, at, store});
+        const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n};
+        commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_start, bin_sites, raw, at});
+        commands.dispatch(kernel("queue_cells"), n, n, {counts.words, raw, queue});
     };
-    onDevice(record);
+    const auto exact = [&](engine::Commands& commands, uint32_t k) {
+        const engine::BufferView groups = publish(commands, COUNT_EXACT_SMALL + k, classes[k].room);
+        const CutPush push = cutPush(set, binned, k, path);
+        const std::initializer_list<engine::BufferView> buffers = {counts.words, sites, bin_start, bin_sites,
+                                                                   queue,        raw,   at,        store};
+        if (push.cell_count != NO_INDEX)
+            commands.dispatchGroups(kernel(classes[k].kernel), n, push, buffers);
+        else
+            commands.dispatchIndirect(kernel(classes[k].kernel), groups, push, buffers);
+    };
+    onDevice([&](engine::Commands& commands) {
+        if (path == Path::Filtered) filter(commands);
+        for (uint32_t k = 0; k < classes.size(); ++k)
+            if (shaders::find(classes[k].kernel) != nullptr) exact(commands, k);
+    });
     DeviceCells result;
     result.undecided = counts[COUNT_EXACT_SMALL];
     result.redone = counts[COUNT_EXACT_MEDIUM];
     for (uint32_t s = 0; s < n; ++s) {
         const Word2 place = at.mappedAs<Word2>()[s];
-        const RawCell cell{raw.mappedAs<uint32_t>() + place[0], place[1] != 0};
+        const RawCell cell{raw.mappedAs<uint32_t>() + place[0], classes[place[1]]};
         if (cell.words[0] != CELL_OK) ++result.unfinished;
         result.cells.push_back(decode(s, cell, n));
     }

@@ -10,7 +10,6 @@
 #include <tiny_gltf.h>
 
 #include <bit>
-#include <cstring>
 #include <sstream>
 
 namespace brittle {
@@ -27,8 +26,7 @@ public:
     explicit VertexSet(size_t most) : slots_(std::bit_ceil(2 * most + 2), kEmpty) {}
 
     uint32_t indexOf(const FragmentVertex& vertex) {
-        std::array<uint64_t, 4> words;
-        std::memcpy(words.data(), &vertex, sizeof vertex);
+        const auto words = std::bit_cast<Words>(vertex);
         uint64_t hash = 0;
         for (const uint64_t word : words) {
             hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
@@ -39,14 +37,14 @@ public:
             if (entry == kEmpty) {
                 entry = static_cast<uint32_t>(vertices_.size());
                 vertices_.push_back(vertex);
-                return entry;
             }
-            if (std::memcmp(&vertices_[entry], &vertex, sizeof vertex) == 0) return entry;
+            if (std::bit_cast<Words>(vertices_[entry]) == words) return entry;
         }
     }
     const std::vector<FragmentVertex>& vertices() const { return vertices_; }
 
 private:
+    using Words = std::array<uint64_t, 4>; // by their bits: -0 is not 0 here, and what is no number equals itself
     static constexpr uint32_t kEmpty = 0xffffffff;
     std::vector<uint32_t> slots_;
     std::vector<FragmentVertex> vertices_;

@@ -79,6 +79,23 @@ double filledShare(const Mesh& mesh, const EventGrid& grid) {
     return std::clamp(six_volumes / 6 / box, 1.0 / 32, 1.0);
 }
 
+// Share of evenly laid bins that any site falls into: what clusters leave empty, finer bins make up for.
+double occupiedShare(EventGrid grid, std::span<const Double3> sites) {
+    uint64_t count = binsOfEdge(grid, grid.bins[3], grid.bins);
+    std::vector<bool> occupied(count, false);
+    for (const Double3& s : sites) {
+        Int3 p = snapToGrid(grid, s);
+        uint64_t bin = 0;
+        for (size_t k = 3; k-- > 0;) {
+            int32_t at = std::min((p[k] - grid.box_low[k]) / grid.bins[3], grid.bins[k] - 1);
+            bin = bin * static_cast<uint64_t>(grid.bins[k]) + static_cast<uint64_t>(at);
+        }
+        occupied[bin] = true;
+    }
+    double share = static_cast<double>(std::count(occupied.begin(), occupied.end(), true)) / static_cast<double>(count);
+    return std::clamp(share, 1.0 / 32, 1.0);
+}
+
 // The finest cubic bins of which there are no more than the sites call for.
 void setBins(EventGrid& grid, uint32_t site_count, double filled) {
     auto wanted = std::max<uint64_t>(1, static_cast<uint64_t>(site_count / kSitesPerBin / filled));
@@ -119,6 +136,7 @@ engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double
     grid.step = std::ldexp(1.0f, -exponent);
     setBox(grid, mesh, sites);
     setBins(grid, site_count, sites.empty() ? filledShare(mesh, grid) : 1.0);
+    if (!sites.empty()) setBins(grid, site_count, occupiedShare(grid, sites));
     return grid;
 }
 

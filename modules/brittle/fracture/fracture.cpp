@@ -127,12 +127,15 @@ private:
     }
 
     engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options, const Prepared& p,
-                                    const Capacities& capacity) {
+                                    Capacities& capacity) {
         EventBuffers b;
         auto arena = makeArena(capacity, mesh, p.columns, b);
         if (!arena) return arena.error();
         layOut(*arena, capacity, mesh, p.columns, b);
         if (auto ok = arena->status(); !ok) return ok.error();
+        // No more than one binding can hold; what does not fit is reported like any full pool.
+        uint32_t most = device_.limits().maxStorageBufferRange / (3 * sizeof(FragmentVertex));
+        capacity.emitted = std::min(capacity.emitted, most);
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
         engine::Commands commands(device_);

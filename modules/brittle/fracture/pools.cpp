@@ -59,7 +59,7 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.neighbors = size(20 * n + 2048);
     c.corners = size(34 * n + 4096);
     c.voronoi_vertices = size(9 * n + 1024);
-    c.voronoi_edges = size(16 * n + 2048);
+    c.voronoi_edges = size(14 * n + 2048);
     c.crossings = size(2.5 * cuts + 0.02 * c.edges + 2048);
     c.pairs = size(2.5 * c.crossings + 4 * patches + 4096);
     c.polygons = c.pairs;
@@ -95,7 +95,7 @@ bool Capacities::grow(const uint32_t* status) {
     const uint32_t* needed = status + STATUS_NEEDED;
     bool more = takeUp(exact_cells, status[COUNT_EXACT_SMALL] != 0);
     more |= takeUp(medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
-    more |= takeUp(large_cells, status[COUNT_EXACT_LARGE] != 0);
+    more |= takeUp(large_cells, status[COUNT_EXACT_MEDIUM] != 0); // who needs the one often needs the other
     more |= takeUp(huge_faces, status[COUNT_HUGE_FACES] != 0);
     if (status[STATUS_ROUNDS_LEFT] != 0) {
         clip_rounds = clip_rounds * 2 + 8;
@@ -132,7 +132,7 @@ namespace {
 
 // Words a cell of the two larger exact kernels keeps in `raw`, and in its store.
 constexpr uint64_t kMediumRaw = 2 + 256 + 2 * 512, kLargeRaw = 2 + 2048 + 2 * 4096;
-constexpr uint64_t kMediumStore = 16 * 512, kLargeStore = 16 * 4096;
+constexpr uint64_t kMediumStore = 8 * 256 + 23 * 512, kLargeStore = 8 * 2048 + 23 * 4096;
 
 class Taker {
 public:
