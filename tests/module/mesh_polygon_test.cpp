@@ -64,9 +64,9 @@ TEST(Polygon, WindsAsTheOutlineDoesWhateverItsPlane) {
     const std::vector<Double3> flat = star(7, 0.4);
     for (const Double3& axis : {Double3{1, 0, 0}, Double3{0, -1, 0}, Double3{0.3, -0.5, -0.8}}) {
         const Double3 n = normalized(axis, axis), u = normalized(cross(n, {0.1, 0.2, 0.9}), n), v = cross(n, u);
-        std::vector<Double3> outline;
-        for (const Double3& p : flat)
-            outline.push_back(p[0] * u + p[1] * v);
+        std::vector<Double3> outline = flat;
+        for (Double3& p : outline)
+            p = p[0] * u + p[1] * v;
         double along = 0;
         for (const Index3& t : triangulatePolygon(outline))
             along += dot(n, cross(outline[t[1]] - outline[t[0]], outline[t[2]] - outline[t[0]])) / 2;
