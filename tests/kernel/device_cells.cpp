@@ -19,7 +19,7 @@ constexpr uint32_t kStoreWords = 17; // a corner's, where the kernel keeps corne
 
 std::array<SizeClass, 3> sizeClasses(uint32_t sites) {
     return {SizeClass{"cut_cells_exact", RAW_PLANES, RAW_CORNERS, sites, false},
-            SizeClass{"cut_cells_exact_medium", 256, 512, sites, true},
+            SizeClass{"cut_cells_exact_medium", 256, 512, std::min(sites, 1100u), true},
             SizeClass{"cut_cells_exact_large", 2048, 4096, 4, true}};
 }
 

@@ -17,7 +17,7 @@ public:
         const auto kernel = library->get(name, spec);
         if (!kernel) {
             std::fprintf(stderr, "%s\n", kernel.error().message.c_str());
-            std::exit(EXIT_FAILURE);
+            std::_Exit(EXIT_FAILURE);
         }
         return **kernel;
     }

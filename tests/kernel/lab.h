@@ -62,7 +62,7 @@ void onDevice(Record&& record) {
     const auto done = begun ? commands.submitAndWait() : begun;
     if (done) return;
     std::fprintf(stderr, "%s\n", done.error().message.c_str());
-    std::exit(EXIT_FAILURE);
+    std::_Exit(EXIT_FAILURE);
 }
 
 // The words that every fracture kernel reads first: counts, and what went wrong.
