@@ -172,7 +172,7 @@ bool Commands::prepare(const Kernel& kernel, Bytes push, Views buffers, const Bu
 bool Commands::accepts(const Kernel& kernel, Bytes push, Views buffers) {
     ENGINE_ASSERT(recording_);
     // C++ rounds a struct with 64-bit members up to 8 bytes, SPIR-V ends it with its last member.
-    const uint32_t wanted = kernel.reflection.push_size;
+    const size_t wanted = kernel.reflection.push_size;
     if (push.size() != wanted && push.size() != (wanted + 7) / 8 * 8) {
         failKernel(kernel, "push block of " + std::to_string(push.size()) + " bytes, it has " + std::to_string(wanted));
         return false;

@@ -24,6 +24,14 @@ bool instanceHas(const char* extension) {
     return std::ranges::any_of(properties, [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
 }
 
+// At exit the leak checker names who leaked, and cannot once the drivers have been unloaded: one instance keeps them.
+void keepDriversForLeakChecker([[maybe_unused]] const VkInstanceCreateInfo& info) {
+#ifdef __SANITIZE_ADDRESS__
+    static VkInstance kept = VK_NULL_HANDLE;
+    if (kept == VK_NULL_HANDLE) vkCreateInstance(&info, nullptr, &kept);
+#endif
+}
+
 } // namespace
 
 uint32_t validationMessageTotal() { return total_messages; }
@@ -46,6 +54,7 @@ Result<std::unique_ptr<Instance>> Instance::create() {
     std::unique_ptr<Instance> instance(new Instance);
     const VkResult made = vkCreateInstance(&info, nullptr, &instance->handle_);
     if (made != VK_SUCCESS) return vulkanError("cannot create a Vulkan instance", made);
+    keepDriversForLeakChecker(info);
     volkLoadInstanceOnly(instance->handle_);
     if (debug) instance->listen();
     return instance;

@@ -36,7 +36,8 @@ step build tools/build.sh release all
 if $failed; then exit 1; fi
 step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
 step validation ctest --preset validation --label-regex '^validation$' --no-tests=error
-step build-asan tools/build.sh asan all
+step build-asan tools/build.sh asan brittle_tests_engine brittle_tests_hard brittle_tests_kernel brittle_tests_module \
+  brittle_tests_reference
 step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
 if $long; then
   step long ctest --preset release --label-regex '^long$' --no-tests=error

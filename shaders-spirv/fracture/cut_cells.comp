@@ -229,7 +229,7 @@ void main() {
             int x0 = whole || !right ? home.x - ring : home.x + ring, x1 = whole ? home.x + ring : x0;
             bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x && !(whole && right);
             uint first = inside ? uint((z * bins.y + y) * bins.x) : 0u;
-            uint begin = bin_start[first + uint(max(x0, 0))], end = bin_start[first + uint(min(x1, bins.x - 1)) + 1u];
+            uint begin = bin_start[inside ? first + uint(max(x0, 0)) : 0u], end = bin_start[inside ? first + uint(min(x1, bins.x - 1)) + 1u : 0u];
             at = step_row ? (inside ? begin : 0u) : at;
             row_end = step_row ? (inside ? end : 0u) : row_end;
             row += step_row ? 1u : 0u;

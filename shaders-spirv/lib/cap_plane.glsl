@@ -27,15 +27,5 @@ int64_t doubleArea(ivec2 a, ivec2 b, ivec2 c) {
 // 1 for a left turn at b, -1 for a right turn, 0 for none.
 int turn(ivec2 a, ivec2 b, ivec2 c) { return signOf(doubleArea(a, b, c)); }
 
-// Whether x lies in the closed triangle a, b, c, which turns left.
-bool inTriangle(ivec2 a, ivec2 b, ivec2 c, ivec2 x) {
-    bool inside = true;
-    for (uint k = 0u; k < ROLLED(3); k++) {
-        inside = inside && turn(a, b, x) >= 0;
-        ivec2 first = a;
-        a = b;
-        b = c;
-        c = first;
-    }
-    return inside;
-}
+// Whether x lies in the closed triangle a, b, c, which turns left. No loop: callers count their turns.
+bool inTriangle(ivec2 a, ivec2 b, ivec2 c, ivec2 x) { return turn(a, b, x) >= 0 && turn(b, c, x) >= 0 && turn(c, a, x) >= 0; }

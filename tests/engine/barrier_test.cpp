@@ -146,7 +146,8 @@ TEST(Barriers, AreMissedBySynchronizationValidation) {
 
 TEST(HazardTracker, NamesTheStagesAndWritesToWaitFor) {
     HazardTracker tracker;
-    const auto buffer = reinterpret_cast<VkBuffer>(uintptr_t{16});
+    int anything = 0;
+    const auto buffer = reinterpret_cast<VkBuffer>(&anything);
     const Access filled{buffer, 0, 64, true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT};
     const Access read{buffer, 128, 192, false, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
     EXPECT_FALSE(tracker.add({&filled, 1}));

@@ -45,7 +45,8 @@ TEST(Devices, CountWhatTheValidationLayersSay) {
 
 // A write past the end of a range of an arena, which a CPU device would let pass without a word.
 TEST(Devices, HearOfWritesPastTheEnd) {
-    if (!validationIsOn() || !device().gpuAssistedValidation()) GTEST_SKIP() << "without GPU-assisted validation nobody would notice";
+    if (!validationIsOn() || !device().gpuAssistedValidation())
+        GTEST_SKIP() << "without GPU-assisted validation nobody would notice";
     expectValidationMessages(1);
     struct Push {
         uint32_t count, factor;

@@ -95,11 +95,11 @@ TEST(Arena, ReusedMemoryIsSynchronized) {
     const Kernel& add = testKernel(device(), "add_index");
     Commands commands(device());
     ASSERT_TRUE(commands.begin());
-    const BufferView first = arena->take(4 * 4096);
+    const BufferView first = arena->take(source.size());
     commands.dispatch(add, 4096, Push{4096, 1}, {source, first});
     commands.dispatch(add, 4096, Push{4096, 0}, {first, one});
     arena->release(0);
-    const BufferView second = arena->take(4 * 4096);
+    const BufferView second = arena->take(source.size());
     commands.dispatch(add, 4096, Push{4096, 2}, {source, second});
     commands.copy(second, two);
     finish(commands);

@@ -23,6 +23,20 @@ std::array<SizeClass, 3> sizeClasses(uint32_t sites) {
             SizeClass{"cut_cells_exact_large", 2048, 4096, 4, true}};
 }
 
+struct WordCounts {
+    uint32_t queue = 1, raw = 0, store = 1;
+};
+
+WordCounts wordCounts(uint32_t sites) {
+    WordCounts words;
+    for (const SizeClass& size : sizeClasses(sites)) {
+        words.queue += size.room;
+        words.raw += size.room * size.words();
+        if (size.wide) words.store = std::max(words.store, size.room * size.corners * kStoreWords);
+    }
+    return words;
+}
+
 struct CutPush {
     Int4 bins, box_low, box_high;
     uint32_t cell_count, size_class, raw_base, next_capacity;
@@ -129,53 +143,53 @@ BinnedSites binSites(const SiteSet& set) {
     return binned;
 }
 
-DeviceCells cutOnDevice(const SiteSet& set, Path path) {
+RawCells cutRaw(const SiteSet& set, Path path) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
-    const auto classes = sizeClasses(n);
     const BinnedSites binned = binSites(set);
+    const WordCounts words = wordCounts(n);
     Counts counts;
     counts[COUNT_SITES] = n;
-    uint32_t queue_words = 1, raw_words = 0, store_words = 1;
-    for (const SizeClass& size : classes) {
-        queue_words += size.room;
-        raw_words += size.room * size.words();
-        if (size.wide) store_words = std::max(store_words, size.room * size.corners * kStoreWords);
-    }
+    RawCells result{blankBuffer<uint32_t>(words.raw), blankBuffer<Word2>(n)};
     const engine::Buffer sites = bufferOf(binned.sites), bin_start = bufferOf(binned.bin_start);
-    const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(queue_words);
-    const engine::Buffer raw = blankBuffer<uint32_t>(raw_words), at = blankBuffer<Word2>(n),
-                         store = blankBuffer<uint32_t>(store_words);
-    const auto publish = [&](engine::Commands& commands, uint32_t count, uint32_t room) {
-        commands.dispatchGroups(kernel("publish_count"), 1, Word2{count, room}, {counts.words, counts.args});
-        return engine::BufferView(counts.args).sub(36 * count + 24, 12);
-    };
+    const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(words.queue);
+    const engine::Buffer store = blankBuffer<uint32_t>(words.store);
     const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
         const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n};
-        commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_start, bin_sites, raw, at});
-        commands.dispatch(kernel("queue_cells"), n, n, {counts.words, raw, queue});
+        commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_start, bin_sites, result.raw, result.at});
+        commands.dispatch(kernel("queue_cells"), n, n, {counts.words, result.raw, queue});
     };
-    const auto exact = [&](engine::Commands& commands, uint32_t k) {
-        const engine::BufferView groups = publish(commands, COUNT_EXACT_SMALL + k, classes[k].room);
+    const auto exact = [&](engine::Commands& commands, uint32_t k, const SizeClass& size) {
         const CutPush push = cutPush(set, binned, k, path);
-        const std::initializer_list<engine::BufferView> buffers = {counts.words, sites, bin_start, bin_sites,
-                                                                   queue,        raw,   at,        store};
+        const std::initializer_list<engine::BufferView> buffers = {counts.words, sites,      bin_start, bin_sites,
+                                                                   queue,        result.raw, result.at, store};
+        counts.publish(commands, COUNT_EXACT_SMALL + k, size.room);
         if (push.cell_count != NO_INDEX)
-            commands.dispatchGroups(kernel(classes[k].kernel), n, push, buffers);
+            commands.dispatchGroups(kernel(size.kernel), n, push, buffers);
         else
-            commands.dispatchIndirect(kernel(classes[k].kernel), groups, push, buffers);
+            commands.dispatchIndirect(kernel(size.kernel), counts.groupsOf(COUNT_EXACT_SMALL + k), push, buffers);
     };
     onDevice([&](engine::Commands& commands) {
         if (path == Path::Filtered) filter(commands);
-        for (uint32_t k = 0; k < classes.size(); ++k)
-            if (shaders::find(classes[k].kernel) != nullptr) exact(commands, k);
+        uint32_t k = 0;
+        for (const SizeClass& size : sizeClasses(n))
+            exact(commands, k++, size);
     });
-    DeviceCells result;
     result.undecided = counts[COUNT_EXACT_SMALL];
     result.redone = counts[COUNT_EXACT_MEDIUM];
+    return result;
+}
+
+DeviceCells cutOnDevice(const SiteSet& set, Path path) {
+    const uint32_t n = static_cast<uint32_t>(set.sites.size());
+    const auto classes = sizeClasses(n);
+    const RawCells raw = cutRaw(set, path);
+    DeviceCells result;
+    result.undecided = raw.undecided;
+    result.redone = raw.redone;
     for (uint32_t s = 0; s < n; ++s) {
-        const Word2 place = at.mappedAs<Word2>()[s];
-        const RawCell cell{raw.mappedAs<uint32_t>() + place[0], classes[place[1]]};
+        const Word2 place = raw.at.mappedAs<Word2>()[s];
+        const RawCell cell{raw.raw.mappedAs<uint32_t>() + place[0], classes[place[1]]};
         if (cell.words[0] != CELL_OK) ++result.unfinished;
         result.cells.push_back(decode(s, cell, n));
     }

@@ -27,6 +27,13 @@ struct DeviceCells {
     uint32_t undecided = 0;                    // left over by the filter
     uint32_t redone = 0;                       // with more room
 };
+// Raw cells on the device, as count_cells reads them.
+struct RawCells {
+    engine::Buffer raw, at; // words; where each cell begins among them, and its size class
+    uint32_t undecided = 0, redone = 0;
+};
+RawCells cutRaw(const reference::SiteSet& set, Path path = Path::Filtered);
+
 DeviceCells cutOnDevice(const reference::SiteSet& set, Path path = Path::Filtered);
 
 } // namespace kernel_test

@@ -41,4 +41,23 @@ const engine::Kernel& kernel(std::string_view name, std::initializer_list<uint32
 
 const engine::Kernel& testKernel(std::string_view name) { return libraries.find(true, name, {}); }
 
+void Counts::publish(engine::Commands& commands, uint32_t index, uint32_t room) const {
+    commands.dispatchGroups(kernel("publish_count"), 1, Word2{index, room}, {words, args});
+}
+
+void scan(engine::Commands& commands, const Counts& counts, uint32_t length, const engine::Buffer& values,
+          const engine::Buffer& sums, const engine::Buffer& offsets, bool four_channels, const Word4& published) {
+    struct ApplyPush {
+        uint32_t length, length_count, pad[2];
+        Word4 published, capacity;
+    };
+    constexpr uint32_t kNone = NO_INDEX;
+    const uint32_t blocks = (length + SCAN_BLOCK - 1) / SCAN_BLOCK;
+    commands.dispatchGroups(kernel(four_channels ? "scan_reduce4" : "scan_reduce"), blocks, Word2{length, kNone},
+                            {counts.words, values, sums});
+    commands.dispatchGroups(kernel(four_channels ? "scan_apply4" : "scan_apply"), blocks,
+                            ApplyPush{length, kNone, {0, 0}, published, {kNone, kNone, kNone, kNone}},
+                            {counts.words, values, sums, offsets, counts.args});
+}
+
 } // namespace kernel_test

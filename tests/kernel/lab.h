@@ -70,12 +70,21 @@ struct Counts {
     engine::Buffer words = bufferOf(std::vector<uint32_t>(STATUS_WORDS));
     engine::Buffer args = bufferOf(std::vector<uint32_t>(9 * COUNT_TOTAL));
     uint32_t& operator[](uint32_t index) { return words.mappedAs<uint32_t>()[index]; }
+    // Makes a count known to dispatches: a lane for each of it, or a workgroup for each.
+    void publish(engine::Commands& commands, uint32_t index, uint32_t room) const;
+    engine::BufferView lanesOf(uint32_t index) const { return engine::BufferView(args).sub(36 * index, 12); }
+    engine::BufferView groupsOf(uint32_t index) const { return engine::BufferView(args).sub(36 * index + 24, 12); }
     // What was published for the kernels over a count: grids of lanes in workgroups, of scan blocks, and of single workgroups.
     std::vector<uint32_t> argsOf(uint32_t index) const {
         const uint32_t* first = args.mappedAs<uint32_t>() + 9 * index;
         return {first, first + 9};
     }
 };
+
+// offsets[k] = values[0] + ... + values[k - 1], one more than values; four channels: values are Word4. The totals become the
+// published counts.
+void scan(engine::Commands& commands, const Counts& counts, uint32_t length, const engine::Buffer& values,
+          const engine::Buffer& sums, const engine::Buffer& offsets, bool four_channels, const Word4& published);
 
 constexpr uint32_t kSizes[] = {1, 63, 64, 65, 1234};
 

@@ -192,7 +192,7 @@ TEST(Import, TransformsOfNodesApply) {
 
 TEST(Isolation, SurvivesWhateverTheWorkDoes) {
     EXPECT_EQ(*runIsolated([] { return std::string("a\0b", 3); }), std::string("a\0b", 3));
-    const std::string large = std::string(1000, 'x') + std::string(900'000, 'y');
+    std::string large = std::string(1000, 'x') + std::string(900'000, 'y');
     EXPECT_EQ(*runIsolated([&] { return large; }), large);
     EXPECT_FALSE(runIsolated([]() -> std::string { std::abort(); }));
     EXPECT_FALSE(runIsolated([]() -> std::string { throw 1; }));

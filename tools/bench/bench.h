@@ -1,4 +1,4 @@
-// `brittle bench`: what cells and whole shatters cost, and what others take for the same on the same machine in the same run.
+// What cells and whole shatters cost, and what others take for the same on the same machine in the same run.
 //
 // Ours and the peer's runs alternate, so that a machine that is busy for a while is busy for both, and medians are reported.
 // Peers run on one thread; we run on the device, which on a CPU device means all its threads.
@@ -7,11 +7,10 @@
 #include "engine/device.h"
 #include "engine/result.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bench {
@@ -25,14 +24,28 @@ struct BenchOptions {
     uint64_t seed = 1;
 };
 
+// Medians in milliseconds; 0 where there was no peer to run.
+struct CellsRow {
+    uint32_t sites = 0;
+    double ms = 0;        // device time of binning the sites and cutting the cells
+    double voropp_ms = 0; // filling the container and computing every cell with its neighbors
+};
+
+struct ShatterRow {
+    uint32_t sites = 0;
+    size_t triangles = 0, fragments = 0;
+    double ms = 0;        // the whole call, from arrays in host memory to fragments in host memory
+    double device_ms = 0; // from submission to completion
+    double cgal_ms = 0;   // the hull of every cell and its intersection with the model
+    std::vector<std::pair<std::string, double>> stages; // device time, in order
+};
+
 // Called with one line before each step.
 using Progress = std::function<void(const std::string&)>;
 
-engine::Result<nlohmann::json> runBench(engine::Device& device, const BenchOptions& options, const Progress& progress);
-
-// The parts of the above.
-engine::Result<nlohmann::json> benchCells(engine::Device& device, const BenchOptions& options, const Progress& progress);
-engine::Result<nlohmann::json> benchShatter(engine::Device& device, const BenchOptions& options, const Progress& progress);
+engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const BenchOptions& options, const Progress& progress);
+engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, const BenchOptions& options,
+                                                     const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none
 

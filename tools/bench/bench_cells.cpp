@@ -42,30 +42,20 @@ engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::Pr
     return samples;
 }
 
-nlohmann::json rowOf(uint32_t count, const Samples& samples) {
-    const double ours = median(samples.ours);
-    nlohmann::json row = {{"sites", count}, {"ms", ours}, {"us_per_cell", 1000 * ours / count}};
-    if (samples.voropp.empty()) return row;
-    const double voropp = median(samples.voropp);
-    row["voropp_ms"] = voropp;
-    row["voropp_us_per_cell"] = 1000 * voropp / count;
-    row["times_voropp"] = ours / voropp; // below 1: ours is faster
-    return row;
-}
-
 } // namespace
 
-engine::Result<nlohmann::json> benchCells(engine::Device& device, const BenchOptions& options, const Progress& progress) {
+engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const BenchOptions& options,
+                                                 const Progress& progress) {
     auto cube = prepared(unitCube());
     if (!cube) return cube.error();
     auto fracture = brittle::Fracture::create(device);
     if (!fracture) return fracture.error();
-    nlohmann::json rows = nlohmann::json::array();
+    std::vector<CellsRow> rows;
     for (const uint32_t count : options.cell_counts) {
         progress("cells of " + std::to_string(count) + " sites");
         const auto samples = alternate(**fracture, *cube, uniformSites(count, options.seed), options.rounds);
         if (!samples) return samples.error();
-        rows.push_back(rowOf(count, *samples));
+        rows.push_back({count, median(samples->ours), median(samples->voropp)});
     }
     return rows;
 }

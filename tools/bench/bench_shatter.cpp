@@ -36,29 +36,10 @@ engine::Result<void> runOurs(brittle::Fracture& fracture, const brittle::Prepare
     return {};
 }
 
-nlohmann::json stagesOf(const Samples& samples) {
-    nlohmann::json stages = nlohmann::json::array();
-    double sum = 0;
+ShatterRow rowOf(uint32_t count, size_t triangles, const Samples& samples) {
+    ShatterRow row{count, triangles, samples.fragments, median(samples.call), median(samples.device), median(samples.cgal), {}};
     for (const std::string& name : samples.stage_order)
-        sum += median(samples.stages.at(name));
-    for (const std::string& name : samples.stage_order) {
-        const double ms = median(samples.stages.at(name));
-        stages.push_back({{"stage", name}, {"ms", ms}, {"share", sum > 0 ? ms / sum : 0}});
-    }
-    return stages;
-}
-
-nlohmann::json rowOf(uint32_t count, size_t triangles, const Samples& samples) {
-    const double ours = median(samples.call);
-    nlohmann::json row = {{"sites", count},
-                          {"triangles", triangles},
-                          {"fragments", samples.fragments},
-                          {"ms", ours}, // from arrays in host memory to fragments in host memory
-                          {"device_ms", median(samples.device)},
-                          {"stages", stagesOf(samples)}};
-    if (samples.cgal.empty()) return row;
-    row["cgal_ms"] = median(samples.cgal);
-    row["times_cgal"] = ours / median(samples.cgal); // below 1: ours is faster
+        row.stages.emplace_back(name, median(samples.stages.at(name)));
     return row;
 }
 
@@ -77,12 +58,13 @@ engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::Pr
 
 } // namespace
 
-engine::Result<nlohmann::json> benchShatter(engine::Device& device, const BenchOptions& options, const Progress& progress) {
+engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, const BenchOptions& options,
+                                                     const Progress& progress) {
     auto model = prepared(bumpySphere(options.sphere_level));
     if (!model) return model.error();
     auto fracture = brittle::Fracture::create(device);
     if (!fracture) return fracture.error();
-    nlohmann::json rows = nlohmann::json::array();
+    std::vector<ShatterRow> rows;
     for (const uint32_t count : options.shatter_counts) {
         progress("whole shatter into " + std::to_string(count) + " cells");
         const auto samples = alternate(**fracture, *model, count, options);

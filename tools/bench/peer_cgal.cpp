@@ -1,7 +1,5 @@
 #include "tools/bench/peers.h"
 
-#include <nlohmann/json.hpp>
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +8,9 @@
 
 namespace bench {
 namespace {
+
+// As peer_cgal_main.cpp prints it.
+constexpr const char* kPeerFormat = "ms %lf fragments %u failures %u volume_error %lf";
 
 // What the command prints; empty where it fails.
 std::string outputOf(const std::string& command) {
@@ -33,10 +34,11 @@ std::optional<PeerShatter> cgalShatter(uint32_t level, uint32_t site_count, uint
     if (unreadable || !std::filesystem::exists(peer)) return std::nullopt;
     const std::string output = outputOf('"' + peer.string() + "\" " + std::to_string(level) + " " + std::to_string(site_count) +
                                         " " + std::to_string(seed));
-    const nlohmann::json json = nlohmann::json::parse(output, nullptr, false);
-    if (!json.is_object()) return std::nullopt;
-    return PeerShatter{json.value("ms", 0.0), json.value("fragments", 0u), json.value("failures", 0u),
-                       json.value("volume_error", 0.0)};
+    PeerShatter result;
+    const int read =
+        std::sscanf(output.c_str(), kPeerFormat, &result.ms, &result.fragments, &result.failures, &result.volume_error);
+    if (read != 4) return std::nullopt;
+    return result;
 }
 
 } // namespace bench

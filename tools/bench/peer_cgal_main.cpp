@@ -1,4 +1,4 @@
-// brittle_peer_cgal LEVEL SITES SEED: shatters the bench's model with CGAL and prints one JSON object.
+// brittle_peer_cgal LEVEL SITES SEED: shatters the bench's model with CGAL and prints one line.
 #include "tools/bench/peers.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     const Surface model = surfaceOf(bench::bumpySphere(static_cast<uint32_t>(number(1))));
     const auto cells = bench::cellCorners(bench::uniformSites(static_cast<uint32_t>(number(2)), number(3)));
     const bench::PeerShatter result = shatter(model, cells);
-    std::printf("{\"ms\": %.3f, \"fragments\": %u, \"failures\": %u, \"volume_error\": %.3g}\n", result.ms, result.fragments,
-                result.failures, result.volume_error);
+    std::printf("ms %.3f fragments %u failures %u volume_error %.3g\n", result.ms, result.fragments, result.failures,
+                result.volume_error);
     return 0;
 }
