@@ -15,7 +15,7 @@ struct SizeClass {
     bool wide;                      // a corner is two words instead of one
     uint32_t words() const { return 2 + planes + (wide ? 2 : 1) * corners; }
 };
-constexpr uint32_t kStoreWords = 17; // a corner's, where the kernel keeps corners in a buffer
+constexpr uint32_t kStoreWords = 28; // per corner, planes among them, where a kernel keeps its cell in a buffer
 
 std::array<SizeClass, 3> sizeClasses(uint32_t sites) {
     return {SizeClass{"cut_cells_exact", RAW_PLANES, RAW_CORNERS, sites, false},
