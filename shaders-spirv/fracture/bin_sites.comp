@@ -20,5 +20,11 @@ void main() {
     ivec3 p = sites[s].xyz;
     ivec3 b = min((p - box_low.xyz) / bins.w, bins.xyz - 1);
     uint bin = uint((b.z * bins.y + b.y) * bins.x + b.x);
-    bin_sites[bin_start[bin] + atomicAdd(bin_cursors[bin], 1u)] = ivec4(p, int(s));
+    // In the order of ids, so that nothing later depends on who came first.
+    uint rank = 0u;
+    for (uint k = 0u; k < s; k++) {
+        ivec3 o = min((sites[k].xyz - box_low.xyz) / bins.w, bins.xyz - 1);
+        rank += o == b ? 1u : 0u;
+    }
+    bin_sites[bin_start[bin] + rank] = ivec4(p, int(s));
 }
