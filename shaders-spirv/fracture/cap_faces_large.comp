@@ -73,9 +73,10 @@ bool furtherLeft(ivec2 back, ivec2 a, ivec2 b) {
 void loadEdges(uint lane, uint first, uint n) {
     for (uint k = lane; k < n; k += LANES) {
         uvec4 s = segments[first + k];
-        uint a = welded[s.x];
-        nodes[base + k] = ivec4(placeOf(a), int(a), ALIVE);
-        rings[base + k] = uvec4(s.z, 0u, welded[s.y], 0u);
+        uint a = welded[s.x], rank = 0u; // by source: the order in the list is that of atomics
+        for (uint o = 0u; o < n; o++) rank += segments[first + o].z < s.z ? 1u : 0u;
+        nodes[base + rank] = ivec4(placeOf(a), int(a), ALIVE);
+        rings[base + rank] = uvec4(s.z, 0u, welded[s.y], 0u);
     }
     sync();
     for (uint k = lane; k < n; k += LANES) {
