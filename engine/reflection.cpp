@@ -1,7 +1,7 @@
 #include "engine/reflection.h"
 
 #include <algorithm>
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 #include <map>
 #include <set>
 #include <string_view>
