@@ -6,13 +6,17 @@
 // only helps) queues the cell for the exact kernel, and so does running out of planes, corners or turns.
 //
 // An `if` is no saving where lanes run in step: the search for a bisector that cuts is a loop of its own, cutting another.
+// Looks at all corners are unrolled: with fixed places an array is as cheap as registers, with computed ones ten times dearer.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
 
 #define PLANES RAW_PLANES
-#define CORNERS 64
+#define CORNERS 48
 #define LIST 64
+#define PUT_OFF 16
+#define ALL_CORNERS(k) [[unroll]] for (uint k = 0u; k < CORNERS; k++)
 FLAT_KERNEL;
 READS(0, uint, counts);
 READS(1, uint, bin_start);
@@ -30,19 +34,26 @@ const float kRoundoff = 1.0 / 8388608.0;
 const float kCornerError = 12.0 * kRoundoff;
 const float kTestError = 8.0 * kRoundoff;
 const uint kNoKey = 0xffffffffu;
-const float kMaxRelativeError = 1e-3;
+const float kMaxRelativeError = 0.2; // beyond, a corner says nothing
 // Loop turns of one lane. Lanes that run in step may each spend theirs at different times, and Mesa's software device stops
-// a subgroup (8 lanes, 16 at most) without a word at 65,535: an eighth of that is safe, and three times what a usual cell takes.
+// a subgroup (8 lanes, 16 at most) without a word at 65,535: an eighth of that is safe. Loops with fixed bounds are unrolled
+// and take none.
 const uint kTurnBudget = 7900u;
 
-vec3 plane[PLANES];
+// Phases of a cell's search: the bins around its own, those around these, all lines of bins further out, and what was put off.
+const uint kRingOne = 1u, kRingTwo = 2u, kLines = 3u, kPutOff = 4u, kFinished = 5u;
+
+float plane_x[PLANES], plane_y[PLANES], plane_z[PLANES];
 uint plane_id[PLANES];
 int rim[PLANES];
-vec4 corner[CORNERS]; // w and its error bound; zero where free
+float corner_x[CORNERS], corner_y[CORNERS], corner_z[CORNERS]; // w; zero where free
+float corner_error[CORNERS];
+float corner_far[CORNERS]; // squared length of w, at most
 uint triple[CORNERS];
 uint key[LIST];       // squared distance, its last bits replaced by the place in the list
 uint listed[LIST];    // place in bin_sites
-uint free_low, free_high, top, plane_count, status;
+uint put_off[PUT_OFF];
+uint free_low, free_high, top, plane_count, status, count, put_off_count, budget;
 float reach;
 
 uint takeFree() {
@@ -56,67 +67,94 @@ uint takeFree() {
     return slot;
 }
 
+vec3 planeAt(uint p) { return vec3(plane_x[p], plane_y[p], plane_z[p]); }
+
+void setCorner(uint slot, vec3 w, float error) {
+    corner_x[slot] = w.x;
+    corner_y[slot] = w.y;
+    corner_z[slot] = w.z;
+    corner_error[slot] = error;
+    float furthest = (length(w) + error) * (1.0 + kTestError);
+    corner_far[slot] = furthest * furthest;
+}
+
+float sumOfSizes(vec3 w) { return abs(w.x) + abs(w.y) + abs(w.z); }
+
 void makeCorner(uint slot, uint a, uint b, uint c) {
-    vec3 pa = plane[a], pb = plane[b], pc = plane[c];
+    vec3 pa = planeAt(a), pb = planeAt(b), pc = planeAt(c);
     vec3 bc = cross(pb, pc), ca = cross(pc, pa), ab = cross(pa, pb);
     float la = length(pa), lb = length(pb), lc = length(pc);
     float inverse = 1.0 / dot(pa, bc);
     vec3 w = (dot(pa, pa) * bc + dot(pb, pb) * ca + dot(pc, pc) * ab) * inverse;
     float size = length(w);
-    float error = kCornerError * la * lb * lc * abs(inverse) * (la + lb + lc + size) + kTestError * (abs(w.x) + abs(w.y) + abs(w.z));
+    float error = kCornerError * la * lb * lc * abs(inverse) * (la + lb + lc + size) + kTestError * sumOfSizes(w);
     if (!(error < kMaxRelativeError * size)) status = CELL_UNDECIDED;
-    corner[slot] = vec4(w, error);
+    setCorner(slot, w, error);
     triple[slot] = a | (b << 8) | (c << 16);
-}
-
-void measureReach() {
-    float furthest = 0.0;
-    for (uint k = 0u; k < top; k++) furthest = max(furthest, dot(corner[k].xyz, corner[k].xyz));
-    reach = furthest * (1.0 + 4.0 * kMaxRelativeError);
 }
 
 void startFromBox(ivec3 site) {
     for (uint k = 0u; k < ROLLED(CORNERS); k++) {
-        corner[k] = vec4(0.0);
+        setCorner(k, vec3(0.0), 0.0);
         triple[k] = 0u;
     }
     for (uint k = 0u; k < ROLLED(PLANES); k++) rim[k] = 0;
     for (uint k = 0u; k < ROLLED(LIST); k++) key[k] = kNoKey;
     vec3 low = vec3(2 * (box_low.xyz - site)), high = vec3(2 * (box_high.xyz - site));
-    for (uint k = 0u; k < ROLLED(3); k++) {
-        vec3 axis = vec3(k == 0u ? 1.0 : 0.0, k == 1u ? 1.0 : 0.0, k == 2u ? 1.0 : 0.0);
-        plane[2u * k] = axis * low;
-        plane[2u * k + 1u] = axis * high;
-        plane_id[2u * k] = BOX_BASE + 2u * k;
-        plane_id[2u * k + 1u] = BOX_BASE + 2u * k + 1u;
+    for (uint k = 0u; k < ROLLED(6); k++) {
+        vec3 wall = (k & 1u) != 0u ? high : low;
+        plane_x[k] = k / 2u == 0u ? wall.x : 0.0;
+        plane_y[k] = k / 2u == 1u ? wall.y : 0.0;
+        plane_z[k] = k / 2u == 2u ? wall.z : 0.0;
+        plane_id[k] = BOX_BASE + k;
     }
     plane_count = 6u;
     free_low = ~255u;
-    free_high = ~0u;
+    free_high = (1u << (CORNERS - 32u)) - 1u;
     top = 8u;
     for (uint k = 0u; k < ROLLED(8); k++) {
         uint x = k & 1u, y = 2u + ((k >> 1) & 1u), z = 4u + (k >> 2);
         bool odd = ((k ^ (k >> 1) ^ (k >> 2)) & 1u) != 0u;
-        makeCorner(k, x, odd ? y : z, odd ? z : y);
+        vec3 w = vec3((k & 1u) != 0u ? high.x : low.x, (k & 2u) != 0u ? high.y : low.y, (k & 4u) != 0u ? high.z : low.z);
+        setCorner(k, w, kTestError * sumOfSizes(w));
+        triple[k] = x | ((odd ? y : z) << 8) | ((odd ? z : y) << 16);
     }
-    measureReach();
 }
 
-// Most that any corner may stick out over plane e.
-float furthestOver(vec3 e, float size) {
-    float furthest = 0.0;
-    for (uint k = 0u; k < top; k++) furthest = max(furthest, dot(e, corner[k].xyz) + size * corner[k].w);
-    return furthest;
+// One look at all corners: those that e removes for certain, whether it may remove others, and how far the cell reaches.
+struct Look {
+    uint gone_low, gone_high;
+    bool unsure;
+};
+
+Look lookOver(vec3 e) {
+    Look look = Look(0u, 0u, false);
+    float size = length(e), square = dot(e, e), furthest = 0.0;
+    float sure_out = square * (1.0 + kTestError), sure_in = square * (1.0 - kTestError);
+    ALL_CORNERS(k) {
+        float x = corner_x[k], y = corner_y[k], z = corner_z[k], slack = size * corner_error[k];
+        float q = e.x * x + e.y * y + e.z * z;
+        furthest = max(furthest, corner_far[k]);
+        bool outside = q - slack > sure_out;
+        look.unsure = look.unsure || (!outside && q + slack >= sure_in);
+        uint bit = outside ? 1u << (k & 31u) : 0u;
+        look.gone_low |= k < 32u ? bit : 0u;
+        look.gone_high |= k < 32u ? 0u : bit;
+    }
+    reach = furthest;
+    return look;
 }
 
-uint nearestListed(uint count) {
+uint nearestListed() {
     uint nearest = kNoKey;
-    for (uint k = 0u; k < count; k += 8u) {
-        uint a = min(min(key[k], key[k + 1u]), min(key[k + 2u], key[k + 3u]));
-        uint b = min(min(key[k + 4u], key[k + 5u]), min(key[k + 6u], key[k + 7u]));
-        nearest = min(nearest, min(a, b));
-    }
+    [[unroll]] for (uint k = 0u; k < LIST; k++) nearest = min(nearest, key[k]);
     return nearest;
+}
+
+void list(uint place, vec3 d) {
+    key[count] = (floatBitsToUint(dot(d, d)) & ~63u) | count;
+    listed[count] = place;
+    count++;
 }
 
 int weigh(uint p) { return int(p) + 256 * int(p * p); }
@@ -137,51 +175,44 @@ uint nextOnRim(int sum) {
     return uint((total + difference) >> 1) & 63u;
 }
 
-void cutBy(vec3 e, uint id) {
-    float size = length(e), square = dot(e, e);
-    float sure_out = square * (1.0 + kTestError), sure_in = square * (1.0 - kTestError);
-    uint gone_low = 0u, gone_high = 0u;
-    bool unsure = false;
-    for (uint k = 0u; k < top; k++) {
-        float q = dot(e, corner[k].xyz), slack = size * corner[k].w;
-        bool out_ = q - slack > sure_out;
-        unsure = unsure || (!out_ && q + slack >= sure_in);
-        uint bit = out_ ? 1u << (k & 31u) : 0u;
-        gone_low |= k < 32u ? bit : 0u;
-        gone_high |= k < 32u ? 0u : bit;
-    }
-    if (unsure) status = CELL_UNDECIDED;
-    if (plane_count + 1u >= PLANES) status = CELL_OVERFLOW;
-    bool any_ = (gone_low | gone_high) != 0u && status == CELL_OK;
-    gone_low = any_ ? gone_low : 0u;
-    gone_high = any_ ? gone_high : 0u;
-    uint start = 0u, low = gone_low, high = gone_high;
+uint takeLowest(inout uint low, inout uint high) {
+    bool lower = low != 0u;
+    uint t = lower ? uint(findLSB(low)) : 32u + uint(findLSB(high));
+    low = lower ? low & (low - 1u) : 0u;
+    high = lower ? high : high & (high - 1u);
+    return t;
+}
+
+// Removes corners, and closes the rim that they leave by corners on the new plane.
+void cutBy(uint gone_low, uint gone_high, vec3 e, uint id) {
+    bool cuts = (gone_low | gone_high) != 0u;
+    if (cuts && plane_count + 1u >= PLANES) status = CELL_OVERFLOW;
+    cuts = cuts && status == CELL_OK;
+    uint low = cuts ? gone_low : 0u, high = cuts ? gone_high : 0u, start = 0u;
+    free_low |= low;
+    free_high |= high;
     for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) {
-        bool lower = low != 0u;
-        uint t = lower ? uint(findLSB(low)) : 32u + uint(findLSB(high));
-        low = lower ? low & (low - 1u) : 0u;
-        high = lower ? high : high & (high - 1u);
+        uint t = takeLowest(low, high);
         addToRim(t);
+        setCorner(t, vec3(0.0), 0.0);
     }
-    low = gone_low;
-    high = gone_high;
-    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) {
-        bool lower = low != 0u;
-        uint t = lower ? uint(findLSB(low)) : 32u + uint(findLSB(high));
-        low = lower ? low & (low - 1u) : 0u;
-        high = lower ? high : high & (high - 1u);
-        uint a = triple[t] & 255u, b = (triple[t] >> 8) & 255u, c = triple[t] >> 16;
-        start = rim[a] != 0 ? a : (rim[b] != 0 ? b : (rim[c] != 0 ? c : start));
-        corner[t] = vec4(0.0);
+    low = cuts ? gone_low : 0u;
+    high = cuts ? gone_high : 0u;
+    bool open = cuts;
+    for (uint k = 0u; k < CORNERS && (low | high) != 0u && open; k++) {
+        uint t = takeLowest(low, high), a = triple[t] & 255u, b = (triple[t] >> 8) & 255u, c = triple[t] >> 16;
+        bool ra = rim[a] != 0, rb = rim[b] != 0, rc = rim[c] != 0;
+        start = ra ? a : (rb ? b : c);
+        open = !(ra || rb || rc);
     }
-    free_low |= gone_low;
-    free_high |= gone_high;
-    if (any_) {
-        plane[plane_count] = e;
+    if (cuts) {
+        plane_x[plane_count] = e.x;
+        plane_y[plane_count] = e.y;
+        plane_z[plane_count] = e.z;
         plane_id[plane_count] = id;
     }
     uint at = start;
-    bool open = any_;
+    open = cuts;
     for (uint k = 0u; k < PLANES && open; k++) {
         int sum = rim[at];
         uint next = sum != 0 ? nextOnRim(sum) : start;
@@ -190,9 +221,9 @@ void cutBy(vec3 e, uint id) {
         makeCorner(takeFree(), at, next, plane_count);
         at = next;
         open = at != start && status == CELL_OK;
+        budget -= min(budget, 1u);
     }
-    plane_count += any_ ? 1u : 0u;
-    measureReach();
+    plane_count += cuts ? 1u : 0u;
 }
 
 float ringDistance(ivec3 site, ivec3 home, int ring) {
@@ -205,86 +236,168 @@ float ringDistance(ivec3 site, ivec3 home, int ring) {
     return least;
 }
 
-void main() {
-    uint lane = flatIndex();
-    uint count_sites = counts[COUNT_SITES];
-    if (lane >= min(slots, count_sites)) return;
-    ivec4 own = bin_sites[lane];
-    ivec3 site = own.xyz, home = min((own.xyz - box_low.xyz) / bins.w, bins.xyz - 1);
-    status = CELL_OK;
-    startFromBox(site);
+// Where the search stands.
+uint phase, row, at, row_end, line_y, line_z;
 
-    int ring = 1;
-    uint row = 0u, at = 0u, row_end = 0u, budget = kTurnBudget;
-    bool finished = false;
-    for (uint turn = 0u; turn < 512u && !finished; turn++) {
-        // Fill the list with sites of this ring that may still cut; a turn is a site or a new row.
-        int width = 2 * ring + 1;
-        uint rows = ring == 1 ? 9u : uint(2 * width * width), count = 0u;
-        for (uint guard = 0u; guard < 4096u && count < LIST && budget > 0u && (row < rows || at < row_end); guard++) {
-            bool step_row = at >= row_end;
-            uint line = ring == 1 ? row : row >> 1;
-            int y = home.y + int(line) % width - ring, z = home.z + int(line) / width - ring;
-            bool whole = ring == 1 || abs(y - home.y) == ring || abs(z - home.z) == ring, right = ring != 1 && (row & 1u) != 0u;
-            int x0 = whole || !right ? home.x - ring : home.x + ring, x1 = whole ? home.x + ring : x0;
-            bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x && !(whole && right);
-            uint first = inside ? uint((z * bins.y + y) * bins.x) : 0u;
-            uint begin = bin_start[inside ? first + uint(max(x0, 0)) : 0u], end = bin_start[inside ? first + uint(min(x1, bins.x - 1)) + 1u : 0u];
-            at = step_row ? (inside ? begin : 0u) : at;
-            row_end = step_row ? (inside ? end : 0u) : row_end;
-            row += step_row ? 1u : 0u;
-            bool is_site = at < row_end;
-            ivec4 q = bin_sites[is_site ? at : lane];
+// A turn is a row of bins or a site of it.
+void fillFromRing(uint lane, ivec3 site, ivec3 home) {
+    int ring = int(min(phase, 2u)), width = 2 * ring + 1;
+    uint rows = ring == 1 ? 9u : uint(2 * width * width);
+    for (uint guard = 0u; guard < 4096u && phase <= kRingTwo && count < LIST && budget > 0u && (row < rows || at < row_end); guard++) {
+        bool step_row = at >= row_end;
+        uint line = ring == 1 ? row : row >> 1;
+        int y = home.y + int(line) % width - ring, z = home.z + int(line) / width - ring;
+        bool whole = ring == 1 || abs(y - home.y) == ring || abs(z - home.z) == ring, right = ring != 1 && (row & 1u) != 0u;
+        int x0 = whole || !right ? home.x - ring : home.x + ring, x1 = whole ? home.x + ring : x0;
+        bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x && !(whole && right);
+        uint first = inside ? uint((z * bins.y + y) * bins.x) : 0u;
+        uint begin = bin_start[inside ? first + uint(max(x0, 0)) : 0u], end = bin_start[inside ? first + uint(min(x1, bins.x - 1)) + 1u : 0u];
+        at = step_row ? (inside ? begin : 0u) : at;
+        row_end = step_row ? (inside ? end : 0u) : row_end;
+        row += step_row ? 1u : 0u;
+        bool is_site = at < row_end;
+        ivec4 q = bin_sites[is_site ? at : lane];
+        vec3 d = vec3(q.xyz - site);
+        if (is_site && at != lane && dot(d, d) <= reach) list(at, d);
+        at += is_site ? 1u : 0u;
+        budget -= min(budget, 1u);
+    }
+}
+
+// The k-th of n bins counted from bin h outwards.
+int outward(uint k, int h, int n) {
+    int near = min(h, n - 1 - h), i = int(k);
+    int around = (i & 1) != 0 ? h + (i + 1) / 2 : h - i / 2, beyond = h < n - 1 - h ? i : n - 1 - i;
+    return i <= 2 * near ? around : beyond;
+}
+
+// Way from the site to a bin along one axis: its nearest and its furthest place.
+vec2 spanOf(int bin, int from, int low) { return vec2(float(low + bin * bins.w - from), float(low + (bin + 1) * bins.w - from)); }
+float gap(vec2 span) { return max(0.0, max(span.x, -span.y)); }
+
+// A site d cuts corner w where d.w > d.d, that is, inside the ball with w for a diameter. Of a line of bins along x, the part
+// that meets any of these balls: for each corner the best y and z are found first, what is left is a quadratic in x.
+vec2 partInBalls(vec2 span_y, vec2 span_z) {
+    vec2 part = vec2(1e30, -1e30);
+    ALL_CORNERS(k) {
+        float y = clamp(0.5 * corner_y[k], span_y.x, span_y.y), z = clamp(0.5 * corner_z[k], span_z.x, span_z.y);
+        float size = abs(corner_x[k]) + abs(corner_y[k]) + abs(corner_z[k]);
+        float slack = size * (1.25 * corner_error[k] + 16.0 * kRoundoff * size);
+        float left = y * (corner_y[k] - y) + z * (corner_z[k] - z) + 0.25 * corner_x[k] * corner_x[k] + slack;
+        float half_ = sqrt(max(left, 0.0));
+        part.x = left >= 0.0 ? min(part.x, 0.5 * corner_x[k] - half_) : part.x;
+        part.y = left >= 0.0 ? max(part.y, 0.5 * corner_x[k] + half_) : part.y;
+    }
+    return part;
+}
+
+// Steps to the next line of bins that the search radius reaches.
+bool findLine(ivec3 site, ivec3 home) {
+    bool found = at < row_end || phase != kLines;
+    bool fresh = !found;
+    for (uint guard = 0u; guard < 4096u && !found && line_z < uint(bins.z) && budget > 0u; guard++) {
+        float dz = gap(spanOf(outward(line_z, home.z, bins.z), site.z, box_low.z));
+        float dy = gap(spanOf(outward(line_y, home.y, bins.y), site.y, box_low.y));
+        bool slab = dz * dz <= reach;
+        found = slab && dy * dy + dz * dz <= reach;
+        row = line_y | (line_z << 16);
+        line_y++;
+        bool ended = !slab || line_y == uint(bins.y);
+        line_y = ended ? 0u : line_y;
+        line_z += ended ? 1u : 0u;
+        budget -= min(budget, 1u);
+    }
+    return found && fresh;
+}
+
+void openLine(ivec3 site, ivec3 home) {
+    int y = outward(row & 0xffffu, home.y, bins.y), z = outward(row >> 16, home.z, bins.z);
+    vec2 part = partInBalls(spanOf(y, site.y, box_low.y), spanOf(z, site.z, box_low.z));
+    float from = float(site.x - box_low.x), edge = float(bins.w), limit = float(bins.x);
+    int x0 = int(clamp((from + part.x - 4.0) / edge - 0.001, 0.0, limit)), x1 = int(clamp((from + part.y + 4.0) / edge + 0.001, -1.0, limit - 1.0));
+    bool any_ = part.x <= part.y && x0 <= x1;
+    uint first = uint((z * bins.y + y) * bins.x);
+    at = any_ ? bin_start[first + uint(x0)] : 0u;
+    row_end = any_ ? bin_start[first + uint(x1) + 1u] : 0u;
+}
+
+void fillFromLines(uint lane, ivec3 site, ivec3 home) {
+    ivec3 low = box_low.xyz + (home - 2) * bins.w, high = box_low.xyz + (home + 3) * bins.w;
+    bool more = phase == kLines;
+    for (uint guard = 0u; guard < 4096u && more; guard++) {
+        if (findLine(site, home)) openLine(site, home);
+        for (uint inner = 0u; inner < 4096u && at < row_end && count < LIST && budget > 0u && more; inner++) {
+            ivec4 q = bin_sites[at];
             vec3 d = vec3(q.xyz - site);
-            float distance = dot(d, d);
-            if (is_site && at != lane && distance <= reach) {
-                key[count] = (floatBitsToUint(distance) & ~63u) | count;
-                listed[count] = at;
-                count++;
-            }
-            at += is_site ? 1u : 0u;
+            bool seen = all(greaterThanEqual(q.xyz, low)) && all(lessThan(q.xyz, high));
+            if (!seen && dot(d, d) <= reach) list(at, d);
+            at++;
             budget -= min(budget, 1u);
         }
-        bool ring_done = row >= rows && at >= row_end;
-        // Cut by what is listed, near to far.
-        bool drained = count == 0u;
-        for (uint step = 0u; step < 96u && !drained; step++) {
-            vec3 e = vec3(0.0);
-            uint id = 0u;
-            bool found = false;
-            for (uint search = 0u; search < LIST + 1u && !found && !drained; search++) {
-                uint best = nearestListed(count);
-                uint slot = best & 63u;
-                drained = best == kNoKey || uintBitsToFloat(best & ~63u) > reach;
-                if (!drained) key[slot] = kNoKey;
-                ivec4 q = bin_sites[drained ? lane : listed[slot]];
-                e = vec3(q.xyz - site);
-                id = uint(q.w);
-                float square = dot(e, e);
-                found = !drained && furthestOver(e, length(e)) >= square * (1.0 - kTestError);
-                budget -= min(budget, 4u + count / 8u + top);
-                drained = drained || budget == 0u;
-            }
-            if (found) cutBy(e, id);
-            budget -= min(budget, found ? 24u + 2u * top : 1u);
-            drained = drained || status != CELL_OK;
-        }
-        for (uint k = 0u; k < count; k++) key[k] = kNoKey;
-        if (ring_done) {
-            float clear = ringDistance(site, home, ring);
-            finished = clear * clear * 0.9999 > reach;
-            ring++;
-            row = 0u;
-            at = 0u;
-            row_end = 0u;
-        }
-        if (budget == 0u || ring > 24) status = CELL_UNDECIDED;
-        finished = finished || status != CELL_OK;
+        more = more && count < LIST && budget > 0u && line_z < uint(bins.z);
     }
-    if (!finished) status = CELL_UNDECIDED;
+}
 
+void fillFromPutOff(ivec3 site) {
+    for (uint k = 0u; k < PUT_OFF && k < put_off_count && phase == kPutOff; k++) list(put_off[k], vec3(bin_sites[put_off[k]].xyz - site));
+}
+
+// Cuts by what is listed, near to far. What is uncertain is put off: a later cut may remove the corner in question.
+void cutByListed(uint lane, ivec3 site) {
+    bool drained = phase == kFinished;
+    for (uint step = 0u; step < 128u && !drained; step++) {
+        vec3 e = vec3(0.0);
+        uint id = 0u, place = 0u;
+        bool found = false;
+        Look look;
+        for (uint search = 0u; search < LIST + 1u && !found && !drained; search++) {
+            uint best = nearestListed(), slot = best & 63u;
+            drained = best == kNoKey;
+            if (!drained) key[slot] = kNoKey;
+            place = drained ? lane : listed[slot];
+            ivec4 q = bin_sites[place];
+            e = vec3(q.xyz - site);
+            id = uint(q.w);
+            look = lookOver(e);
+            drained = drained || uintBitsToFloat(best & ~63u) > reach;
+            found = !drained && (look.unsure || (look.gone_low | look.gone_high) != 0u);
+            budget -= min(budget, 1u);
+            drained = drained || budget == 0u;
+        }
+        if (found && look.unsure) {
+            if (phase == kPutOff || put_off_count >= PUT_OFF) status = CELL_UNDECIDED;
+            put_off[min(put_off_count, PUT_OFF - 1u)] = place;
+            put_off_count++;
+        }
+        bool cuts = found && !look.unsure;
+        cutBy(cuts ? look.gone_low : 0u, cuts ? look.gone_high : 0u, e, id);
+        budget -= min(budget, 8u);
+        drained = drained || status != CELL_OK;
+    }
+    for (uint k = 0u; k < count; k++) key[k] = kNoKey;
+    count = 0u;
+}
+
+void nextPhase(ivec3 site, ivec3 home) {
+    bool ring_done = phase <= kRingTwo && row >= (phase == kRingOne ? 9u : 50u) && at >= row_end;
+    float clear = ringDistance(site, home, int(min(phase, 2u)));
+    bool enough = ring_done && clear * clear * 0.9999 > reach;
+    bool all_seen = phase == kLines && line_z >= uint(bins.z) && at >= row_end;
+    if (phase == kPutOff) phase = kFinished;
+    else if (enough || all_seen) phase = put_off_count > 0u ? kPutOff : kFinished;
+    else if (ring_done) phase++;
+    if (ring_done) {
+        row = 0u;
+        at = 0u;
+        row_end = 0u;
+    }
+    if (budget == 0u && phase != kFinished) status = CELL_UNDECIDED;
+    if (status != CELL_OK) phase = kFinished;
+}
+
+void writeCell(uint self) {
     // Straight through for all lanes: a cell that is not done writes no planes and no corners.
-    uint self = uint(own.w), base = self * RAW_WORDS, live = 0u;
+    uint base = self * RAW_WORDS, live = 0u;
     uint planes = status == CELL_OK ? plane_count : 0u, corners = status == CELL_OK ? top : 0u;
     for (uint k = 0u; k < planes; k++) rim[k] = 0;
     for (uint k = 0u; k < corners; k++) {
@@ -302,4 +415,32 @@ void main() {
     cell_raw[self] = uvec2(base, 0u);
     raw[base] = status;
     raw[base + 1u] = planes | (live << 16);
+}
+
+void main() {
+    uint lane = flatIndex();
+    if (lane >= min(slots, counts[COUNT_SITES])) return;
+    ivec4 own = bin_sites[lane];
+    ivec3 site = own.xyz, home = min((own.xyz - box_low.xyz) / bins.w, bins.xyz - 1);
+    status = CELL_OK;
+    phase = kRingOne;
+    row = 0u;
+    at = 0u;
+    row_end = 0u;
+    line_y = 0u;
+    line_z = 0u;
+    count = 0u;
+    put_off_count = 0u;
+    budget = kTurnBudget;
+    startFromBox(site);
+    reach = 1e30;
+    for (uint turn = 0u; turn < 1024u && phase != kFinished; turn++) {
+        fillFromRing(lane, site, home);
+        fillFromLines(lane, site, home);
+        fillFromPutOff(site);
+        cutByListed(lane, site);
+        nextPhase(site, home);
+    }
+    if (phase != kFinished) status = CELL_UNDECIDED;
+    writeCell(uint(own.w));
 }
