@@ -29,6 +29,7 @@ layout(push_constant) uniform Push {
     ivec4 box_high;
     uint slots;
 };
+#include "lib/bin_lines.glsl"
 
 const float kRoundoff = 1.0 / 8388608.0;
 const float kCornerError = 12.0 * kRoundoff;
@@ -226,16 +227,6 @@ void cutBy(uint gone_low, uint gone_high, vec3 e, uint id) {
     plane_count += cuts ? 1u : 0u;
 }
 
-float ringDistance(ivec3 site, ivec3 home, int ring) {
-    ivec3 below = site - box_low.xyz - (home - ring) * bins.w, above = (home + ring + 1) * bins.w - (site - box_low.xyz);
-    float least = 1e30;
-    for (int k = 0; k < 3; k++) {
-        least = home[k] - ring > 0 ? min(least, float(below[k])) : least;
-        least = home[k] + ring + 1 < bins[k] ? min(least, float(above[k])) : least;
-    }
-    return least;
-}
-
 // Where the search stands.
 uint phase, row, at, row_end, line_y, line_z;
 
@@ -271,26 +262,6 @@ int outward(uint k, int h, int n) {
     return i <= 2 * near ? around : beyond;
 }
 
-// Way from the site to a bin along one axis: its nearest and its furthest place.
-vec2 spanOf(int bin, int from, int low) { return vec2(float(low + bin * bins.w - from), float(low + (bin + 1) * bins.w - from)); }
-float gap(vec2 span) { return max(0.0, max(span.x, -span.y)); }
-
-// A site d cuts corner w where d.w > d.d, that is, inside the ball with w for a diameter. Of a line of bins along x, the part
-// that meets any of these balls: for each corner the best y and z are found first, what is left is a quadratic in x.
-vec2 partInBalls(vec2 span_y, vec2 span_z) {
-    vec2 part = vec2(1e30, -1e30);
-    ALL_CORNERS(k) {
-        float y = clamp(0.5 * corner_y[k], span_y.x, span_y.y), z = clamp(0.5 * corner_z[k], span_z.x, span_z.y);
-        float size = abs(corner_x[k]) + abs(corner_y[k]) + abs(corner_z[k]);
-        float slack = size * (1.25 * corner_error[k] + 16.0 * kRoundoff * size);
-        float left = y * (corner_y[k] - y) + z * (corner_z[k] - z) + 0.25 * corner_x[k] * corner_x[k] + slack;
-        float half_ = sqrt(max(left, 0.0));
-        part.x = left >= 0.0 ? min(part.x, 0.5 * corner_x[k] - half_) : part.x;
-        part.y = left >= 0.0 ? max(part.y, 0.5 * corner_x[k] + half_) : part.y;
-    }
-    return part;
-}
-
 // Steps to the next line of bins that the search radius reaches.
 bool findLine(ivec3 site, ivec3 home) {
     bool found = at < row_end || phase != kLines;
@@ -312,13 +283,13 @@ bool findLine(ivec3 site, ivec3 home) {
 
 void openLine(ivec3 site, ivec3 home) {
     int y = outward(row & 0xffffu, home.y, bins.y), z = outward(row >> 16, home.z, bins.z);
-    vec2 part = partInBalls(spanOf(y, site.y, box_low.y), spanOf(z, site.z, box_low.z));
-    float from = float(site.x - box_low.x), edge = float(bins.w), limit = float(bins.x);
-    int x0 = int(clamp((from + part.x - 4.0) / edge - 0.001, 0.0, limit)), x1 = int(clamp((from + part.y + 4.0) / edge + 0.001, -1.0, limit - 1.0));
-    bool any_ = part.x <= part.y && x0 <= x1;
+    vec2 span_y = spanOf(y, site.y, box_low.y), span_z = spanOf(z, site.z, box_low.z), part = vec2(1e30, -1e30);
+    ALL_CORNERS(k) widenByBall(part, vec3(corner_x[k], corner_y[k], corner_z[k]), corner_error[k], span_y, span_z);
+    ivec2 reached = binsOfPart(part, site.x);
+    bool any_ = reached.x <= reached.y;
     uint first = uint((z * bins.y + y) * bins.x);
-    at = any_ ? bin_start[first + uint(x0)] : 0u;
-    row_end = any_ ? bin_start[first + uint(x1) + 1u] : 0u;
+    at = any_ ? bin_start[first + uint(reached.x)] : 0u;
+    row_end = any_ ? bin_start[first + uint(reached.y) + 1u] : 0u;
 }
 
 void fillFromLines(uint lane, ivec3 site, ivec3 home) {

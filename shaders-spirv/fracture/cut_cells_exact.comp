@@ -1,15 +1,19 @@
 // Box Cutting (the paper, section 3) in integers: one workgroup builds one cell, from the box inwards, near to far, until
-// the next site is further than twice the furthest corner. Nothing is rounded but the radius that bounds the search.
+// the next site is further than twice the furthest corner. Every answer that fp32 leaves open is an integer's sign.
 //
-// A cell is planes and corners; a corner is a triple of planes in the order in which their normals make a positive volume
-// (the dual triangle). Cutting by e removes corners; what they leave is a disk on the cell's surface whose rim visits every
-// plane at most once. Each removed corner (a, b, c) adds c - b style differences to its planes, inner edges cancel in
-// pairs, and a rim plane is left with next - prev and next^2 - prev^2: both neighbors along the rim follow without a walk,
-// and each rim plane p makes its new corner (p, next, e) on its own.
+// Cutting by e removes corners; what they leave is a disk on the cell's surface whose rim visits every plane at most once.
+// Each removed corner (a, b, c) adds c - b style differences to its planes, inner edges cancel in pairs, and a rim plane is
+// left with next - prev and next^2 - prev^2: both neighbors along the rim follow without a walk, and each rim plane p makes
+// its new corner (p, next, e) on its own.
 //
-// PLANES and CORNERS size the store; a cell that outgrows it is queued for the next larger kernel.
+// The order of cuts does not change the cell, only the work: bisectors that remove some corner for certain come first, near
+// to far. Those that touch only corners in question wait until the end, when most such corners are gone: of sites on a
+// sphere around another one, say, all bisectors all but meet in the center, until the center's own site cuts it off.
+//
+// PLANES and CORNERS size the store; a cell that outgrows it, or its loop turns, is queued for the next larger kernel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
 #include "lib/exact_cut.glsl"
 
@@ -18,16 +22,11 @@
 #define PLANES 64
 #define CORNERS 112
 #endif
+#define SUM_STEPS (LANES > 256 ? 5 : (LANES > 64 ? 4 : 3)) /* powers of four up to LANES */
 #define PLANE_TURNS ((PLANES + LANES - 1) / LANES)
-#define CORNER_TURNS ((CORNERS + LANES - 1) / LANES)
-#define SIEVE_CORNERS 160 /* with more corners a look at all of them costs more than the exact test it saves */
-#define LIST_SIZE 1024
-#define LIST_TURNS (LIST_SIZE / LANES)
-#define NEAR_RINGS 6
-#define NO_CORNER 0xffffffffu
-
-// Places are quotients of exact integers: a few roundings each, then three products and sums in a test. Unit roundoff 2^-23.
-const float kPlaceError = 16.0 / 8388608.0;
+#define SIEVE_CORNERS 160 /* with more corners a look at all of them costs more than the test it saves */
+#define LIST_SIZE (LANES > 512 ? 2 * LANES : 1024)
+#define WAITING 0x80000000u /* in a key: touches only corners in question */
 
 layout(local_size_x = LANES) in;
 UPDATES(0, uint, counts);
@@ -46,101 +45,34 @@ layout(push_constant) uniform Push {
     uint raw_base;     // where this class begins in `raw`
     uint next_capacity;
 };
+#include "lib/exact_store.glsl"
+#include "lib/bin_lines.glsl"
 
-// The cell while it is cut: in shared memory, or for the larger ones in a buffer, a store a workgroup.
-#ifdef GLOBAL_STORE
-struct CellStore {
-    ivec4 plane_d[PLANES];
-    vec4 corner_place[CORNERS];
-    uvec2 plane_r[PLANES];
-    uvec2 corner_planes[CORNERS];
-    int rim_sum[PLANES];
-    int rim_squares[PLANES];
-    uint free_slots[CORNERS];
-    uint corner_store[16 * CORNERS];
-};
-layout(set = 0, binding = 7, std430) coherent buffer stores_block { CellStore stores[]; };
-#define plane_d stores[flatGroup()].plane_d
-#define corner_place stores[flatGroup()].corner_place
-#define plane_r stores[flatGroup()].plane_r
-#define corner_planes stores[flatGroup()].corner_planes
-#define rim_sum stores[flatGroup()].rim_sum
-#define rim_squares stores[flatGroup()].rim_squares
-#define free_slots stores[flatGroup()].free_slots
-#define corner_store stores[flatGroup()].corner_store
-#else
-UPDATES(7, uint, store);
-shared ivec4 plane_d[PLANES];        // normal, id
-shared vec4 corner_place[CORNERS];   // w in fp32 and a bound of its error; zero where free
-shared uvec2 plane_r[PLANES];
-shared uvec2 corner_planes[CORNERS]; // a | b << 16, c; NO_CORNER when free
-shared int rim_sum[PLANES];
-shared int rim_squares[PLANES];
-shared uint free_slots[CORNERS];
-shared uint corner_store[16 * CORNERS]; // moment and volume
-#endif
-
-uint loadWord(uint t, uint k) { return corner_store[k * CORNERS + t]; }
-void saveWord(uint t, uint k, uint v) { corner_store[k * CORNERS + t] = v; }
-
-void sync() {
-#ifdef GLOBAL_STORE
-    memoryBarrierBuffer();
-#endif
-    barrier();
-}
+// Bins are searched in two cubes around the home bin, then all that is left.
+int ringsOf(uint cube) { return cube == 0u ? 1 : 3; }
+// Of the 65,535 loop turns that Mesa's software device allows; a cell that needs more goes to the next kernel.
+const uint kTurnBudget = 56000u;
 
 shared uint list_key[LIST_SIZE];
 shared uint list_site[LIST_SIZE];
-shared uint scan_sum[LANES];
-shared uint list_count, best_key, best_slot, reach_bits, removed_count, corner_top;
+shared uint lane_sum[LANES];
+shared uint line_first[LANES];
+shared uint line_end[LANES];
+shared uint list_count, best_key, best_site, best_slot, reach_bits, removed_count, open_count;
 
-Wide128 loadWide(uint t, uint k) {
-    uint64_t lo = uint64_t(loadWord(t, k)) | (uint64_t(loadWord(t, k + 1u)) << 32);
-    uint64_t hi = uint64_t(loadWord(t, k + 2u)) | (uint64_t(loadWord(t, k + 3u)) << 32);
-    return Wide128(lo, int64_t(hi));
-}
+// The same for all lanes.
+uint self, corner_top, plane_count, status, budget;
+ivec3 site, home;
 
-void saveWide(uint t, uint k, Wide128 v) {
-    saveWord(t, k, uint(v.lo));
-    saveWord(t, k + 1u, uint(v.lo >> 32));
-    saveWord(t, k + 2u, uint(uint64_t(v.hi)));
-    saveWord(t, k + 3u, uint(uint64_t(v.hi) >> 32));
-}
+void spend(uint turns) { budget -= min(budget, turns); }
+uint cornerTurns() { return corner_top / LANES + 1u; }
+bool onCorner(uint t) { return t < corner_top; }
 
-Corner loadCorner(uint t) {
-    Corner c;
-    c.moment[0] = loadWide(t, 0u);
-    c.moment[1] = loadWide(t, 4u);
-    c.moment[2] = loadWide(t, 8u);
-    c.volume = loadWide(t, 12u);
-    return c;
-}
-
-Plane planeAt(uint p) {
-    ivec4 d = plane_d[p];
-    uvec2 r = plane_r[p];
-    return Plane(d.xyz, uint(d.w), int64_t(uint64_t(r.x) | (uint64_t(r.y) << 32)));
-}
-
-void setPlane(uint p, ivec3 d, uint id, int64_t r) {
-    plane_d[p] = ivec4(d, int(id));
-    plane_r[p] = uvec2(uint(uint64_t(r)), uint(uint64_t(r) >> 32));
-}
-
-void makeCorner(uint t, uint a, uint b, uint c) {
-    Corner corner = cornerOf(planeAt(a), planeAt(b), planeAt(c));
-    corner_planes[t] = uvec2(a | (b << 16), c);
-    saveWide(t, 0u, corner.moment[0]);
-    saveWide(t, 4u, corner.moment[1]);
-    saveWide(t, 8u, corner.moment[2]);
-    saveWide(t, 12u, corner.volume);
-    vec3 w = placeOf(corner);
-    corner_place[t] = vec4(w, kPlaceError * (abs(w.x) + abs(w.y) + abs(w.z)));
-    atomicMax(corner_top, t + 1u);
-}
-
-void startFromBox(uint lane, ivec3 site) {
+void startFromBox(uint lane) {
+    for (uint p = lane; p < PLANES; p += LANES) {
+        rim_sum[p] = 0;
+        rim_squares[p] = 0;
+    }
     if (lane < 6u) {
         uint axis = lane >> 1;
         bool high = (lane & 1u) != 0u;
@@ -149,116 +81,259 @@ void startFromBox(uint lane, ivec3 site) {
         int distance = high ? box_high[axis] - site[axis] : site[axis] - box_low[axis];
         setPlane(lane, d, BOX_BASE + lane, int64_t(2 * distance));
     }
+    if (lane == 0u) {
+        reach_bits = floatBitsToUint(1e30);
+        list_count = 0u;
+    }
     sync();
     if (lane < 8u) {
         uint x = lane & 1u, y = 2u + ((lane >> 1) & 1u), z = 4u + (lane >> 2);
         bool odd = ((lane ^ (lane >> 1) ^ (lane >> 2)) & 1u) != 0u;
         makeCorner(lane, x, odd ? y : z, odd ? z : y);
     }
+    corner_top = 8u;
+    plane_count = 6u;
+    sync();
 }
 
-// Corners lie in the lowest slots: a cut frees as many as it removes and needs at most two more.
-uint turnsInUse() { return min(uint(CORNER_TURNS), corner_top / LANES + 1u); }
-
 void measureReach(uint lane) {
-    uint reach = 0u, turns = turnsInUse();
+    if (lane == 0u) reach_bits = 0u;
+    sync();
+    uint reach = 0u, turns = cornerTurns();
     for (uint k = 0u; k < turns; k++) {
-        uint t = k * LANES + lane;
-        vec3 w = corner_place[min(t, CORNERS - 1u)].xyz;
+        vec3 w = corner_place[min(k * LANES + lane, corner_top - 1u)].xyz;
         reach = max(reach, floatBitsToUint(dot(w, w) * 1.0001));
     }
     atomicMax(reach_bits, reach);
+    sync();
+    spend(turns);
 }
 
-// Prefix sum over lanes of two 16-bit counters at once; returns the sum before this lane, scan_sum holds the rest.
-uint scanLanes(uint lane, uint value) {
-    scan_sum[lane] = value;
+// Sum over the lanes before this one; lane_sum holds the sums with this one.
+uint sumBefore(uint lane, uint value) {
+    lane_sum[lane] = value;
     sync();
     // Four-way: half the steps of the usual doubling, each with three terms.
-    for (uint step = 1u; step < LANES; step <<= 2) {
-        uint left = lane >= step ? scan_sum[lane - step] : 0u;
-        left += lane >= 2u * step ? scan_sum[lane - 2u * step] : 0u;
-        left += lane >= 3u * step ? scan_sum[lane - 3u * step] : 0u;
+    [[unroll]] for (uint k = 0u; k < SUM_STEPS; k++) {
+        uint step = 1u << (2u * k);
+        uint left = lane >= step ? lane_sum[lane - step] : 0u;
+        left += lane >= 2u * step ? lane_sum[lane - 2u * step] : 0u;
+        left += lane >= 3u * step ? lane_sum[lane - 3u * step] : 0u;
         sync();
-        scan_sum[lane] += left;
+        lane_sum[lane] += left;
         sync();
     }
-    return scan_sum[lane] - value;
+    return lane_sum[lane] - value;
 }
 
-// Nearest listed candidate, by (distance, place in the list).
-void selectNearest(uint lane) {
+// The key under which a candidate is listed, a candidate a lane. The cell only shrinks, so NO_INDEX is for good.
+uint keyOf(vec3 d) {
+    uint looked = corner_top <= SIEVE_CORNERS ? corner_top : 0u;
+    float square = dot(d, d), size = length(d), possible = looked == 0u ? square : 0.0, certain = possible;
+    for (uint k = 0u; k < looked; k++) {
+        vec4 c = corner_place[k];
+        float q = dot(d, c.xyz), slack = size * c.w;
+        possible = max(possible, q + slack);
+        certain = max(certain, q - slack);
+    }
+    bool waits = looked != 0u && certain <= square * (1.0 + kPlaceError);
+    uint key = floatBitsToUint(square) | (waits ? WAITING : 0u);
+    return possible >= square * (1.0 - kPlaceError) ? key : NO_INDEX;
+}
+
+// After every cut where it is cheap, now and then where it is not.
+void sieveList(uint lane) {
+    uint total = list_count, turns = (total / LANES + 1u) * (corner_top + 1u);
+    if (corner_top > SIEVE_CORNERS || (turns > 256u && plane_count % 8u != 0u)) return;
+    for (uint k = lane; k < total; k += LANES) {
+        if (list_key[k] != NO_INDEX) list_key[k] = keyOf(vec3(sites[list_site[k]].xyz - site));
+    }
+    spend(turns);
+    sync();
+}
+
+// Finds in the next LANES lines of a cube, a line a lane, the bins whose sites may cut a corner; returns how many sites.
+uint openLines(uint lane, uint first_line, int cube, bool all_bins) {
+    int width = all_bins ? bins.y : 2 * cube + 1, line = int(first_line + lane);
+    int y = all_bins ? line % width : home.y + line % width - cube, z = all_bins ? line / width : home.z + line / width - cube;
+    bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && line < (all_bins ? bins.y * bins.z : width * width);
+    vec2 span_y = spanOf(y, site.y, box_low.y), span_z = spanOf(z, site.z, box_low.z), part = vec2(1e30, -1e30);
+    uint looked = corner_top <= SIEVE_CORNERS ? corner_top : 0u;
+    for (uint k = 0u; k < looked; k++) widenByBall(part, corner_place[k].xyz, corner_place[k].w, span_y, span_z);
+    spend(looked + 1u);
+    ivec2 reached = looked == 0u ? ivec2(0, bins.x - 1) : binsOfPart(part, site.x);
+    int x0 = all_bins ? reached.x : max(reached.x, home.x - cube), x1 = all_bins ? reached.y : min(reached.y, home.x + cube);
+    bool any_ = inside && x0 <= x1;
+    uint row = any_ ? uint((z * bins.y + y) * bins.x) : 0u;
+    uint begin = any_ ? bin_start[row + uint(x0)] : 0u, end = any_ ? bin_start[row + uint(x1) + 1u] : 0u;
+    line_first[lane] = begin;
+    sumBefore(lane, end - begin);
+    line_end[lane] = lane_sum[lane];
+    sync();
+    return line_end[LANES - 1];
+}
+
+// Lists the sites from the opened lines, from the k-th on, that may still cut; `seen` is the cube that was searched before.
+void listSites(uint lane, uint k, uint total, int seen) {
+    uint low = 0u, high = LANES - 1u;
+    for (uint step = 0u; step < 11u && low < high; step++) {
+        uint middle = (low + high) / 2u;
+        if (line_end[middle] > k) high = middle;
+        else low = middle + 1u;
+    }
+    bool is_site = k < total;
+    uint before = low > 0u ? line_end[low - 1u] : 0u;
+    ivec4 q = bin_sites[is_site ? line_first[low] + k - before : 0u];
+    vec3 d = vec3(q.xyz - site);
+    ivec3 away = abs(min((q.xyz - box_low.xyz) / bins.w, bins.xyz - 1) - home);
+    bool fresh = is_site && uint(q.w) != self && max(away.x, max(away.y, away.z)) > seen;
+    uint key = keyOf(d);
+    if (fresh && key != NO_INDEX && dot(d, d) <= uintBitsToFloat(reach_bits)) {
+        uint s = atomicAdd(list_count, 1u);
+        list_key[s] = key;
+        list_site[s] = uint(q.w);
+    }
+    spend(12u + min(corner_top, SIEVE_CORNERS));
+    sync();
+}
+
+// Strikes the nearest candidate off the list, by (distance, id); false where there is none but those that wait.
+bool takeNearest(uint lane, bool waiting_too) {
     if (lane == 0u) {
         best_key = NO_INDEX;
-        best_slot = NO_INDEX;
+        best_site = NO_INDEX;
         removed_count = 0u;
+        open_count = 0u;
     }
     sync();
-    uint key = NO_INDEX, slot = NO_INDEX;
-    for (uint k = 0u; k * LANES < list_count; k++) {
-        uint s = k * LANES + lane;
-        uint candidate = s < list_count ? list_key[s] : NO_INDEX;
-        slot = candidate < key ? s : slot;
-        key = min(key, candidate);
+    uint key = NO_INDEX, id = NO_INDEX, slot = 0u, total = list_count;
+    for (uint s = lane; s < total; s += LANES) {
+        uint k = list_key[s];
+        k = (k & WAITING) != 0u && !waiting_too ? NO_INDEX : k;
+        bool better = k < key || (k == key && k != NO_INDEX && list_site[s] < id);
+        key = better ? k : key;
+        id = better ? list_site[s] : id;
+        slot = better ? s : slot;
     }
     atomicMin(best_key, key);
     sync();
-    if (key == best_key && key != NO_INDEX) atomicMin(best_slot, slot);
+    if (key == best_key) atomicMin(best_site, id);
+    sync();
+    if (key != NO_INDEX && key == best_key && id == best_site) {
+        best_slot = slot;
+        list_key[slot] = NO_INDEX;
+    }
+    sync();
+    spend(total / LANES + 2u);
+    return best_key != NO_INDEX;
+}
+
+void removeCorner(uint t) {
+    uvec2 planes = corner_planes[t];
+    int a = int(planes.x & 0xffffu), b = int(planes.x >> 16), c = int(planes.y);
+    corner_planes[t].y = planes.y | GONE;
+    corner_place[t] = vec4(0.0); // inside of every plane
+    atomicAdd(rim_sum[a], b - c);
+    atomicAdd(rim_sum[b], c - a);
+    atomicAdd(rim_sum[c], a - b);
+    atomicAdd(rim_squares[a], b * b - c * c);
+    atomicAdd(rim_squares[b], c * c - a * a);
+    atomicAdd(rim_squares[c], a * a - b * b);
+    atomicAdd(removed_count, 1u);
+}
+
+// Removes the corners that are certainly outside e; those in question are listed in `slots`.
+void removeCertain(uint lane, vec3 d) {
+    float square = dot(d, d), size = length(d);
+    uint turns = cornerTurns();
+    for (uint k = 0u; k < turns; k++) {
+        uint t = k * LANES + lane;
+        vec4 c = corner_place[min(t, corner_top - 1u)];
+        float q = dot(d, c.xyz), slack = size * c.w;
+        bool outside = q - slack > square * (1.0 + kPlaceError), inside = q + slack < square * (1.0 - kPlaceError);
+        if (onCorner(t) && outside) removeCorner(t);
+        if (onCorner(t) && !outside && !inside) slots[atomicAdd(open_count, 1u)] = t;
+    }
+    spend(turns);
     sync();
 }
 
-// Marks corners that plane e removes, and adds their differences to the rim sums of their planes.
-void removeCorners(uint lane, uint self, Plane e) {
-    uint turns = turnsInUse();
-    for (uint k = 0u; k < turns; k++) {
-        uint t = min(k * LANES + lane, CORNERS - 1u);
-        uvec2 planes = corner_planes[t];
-        bool live = k * LANES + lane < CORNERS && planes.y != NO_CORNER;
-        uint a = live ? planes.x & 0xffffu : 0u, b = live ? planes.x >> 16 : 0u, c = live ? planes.y : 0u;
-        int side = sideOf(loadCorner(t), e);
-        bool cut = side > 0 || (side == 0 && tieCuts(self, planeAt(a), planeAt(b), planeAt(c), e));
-        if (live && cut) {
-            atomicAdd(removed_count, 1u);
-            corner_planes[t] = uvec2(NO_CORNER);
-            corner_place[t] = vec4(0.0);
-            int ia = int(a), ib = int(b), ic = int(c);
-            atomicAdd(rim_sum[a], ib - ic);
-            atomicAdd(rim_sum[b], ic - ia);
-            atomicAdd(rim_sum[c], ia - ib);
-            atomicAdd(rim_squares[a], ib * ib - ic * ic);
-            atomicAdd(rim_squares[b], ic * ic - ia * ia);
-            atomicAdd(rim_squares[c], ia * ia - ib * ib);
+bool removes(Plane e, uint t) {
+    uvec2 planes = corner_planes[t];
+    int side = sideOf(loadCorner(t), e);
+    bool tie = tieCuts(self, planeAt(planes.x & 0xffffu), planeAt(planes.x >> 16), planeAt(planes.y & ~GONE), e);
+    return side > 0 || (side == 0 && tie);
+}
+
+void removeExact(uint lane, Plane e) {
+    uint total = open_count;
+    for (uint k = lane; k < total; k += LANES) {
+        if (removes(e, slots[k])) removeCorner(slots[k]);
+    }
+    spend(total / LANES + 1u);
+    sync();
+}
+
+// Of all that wait at once, a candidate a lane: strikes out those that cut none of the corners in question.
+void sieveWaiting(uint lane) {
+    uint total = list_count;
+    if (corner_top > SIEVE_CORNERS || total == 0u) return;
+    for (uint t = lane; t < corner_top; t += LANES) slots[t] = 0u;
+    if (lane == 0u) open_count = 0u;
+    sync();
+    for (uint k = lane; k < total; k += LANES) {
+        bool waits = list_key[k] != NO_INDEX && (list_key[k] & WAITING) != 0u;
+        vec3 d = vec3(sites[waits ? list_site[k] : self].xyz - site);
+        float square = dot(d, d) * (1.0 - kPlaceError), size = length(d);
+        for (uint t = 0u; t < corner_top; t++) {
+            vec4 c = corner_place[t];
+            if (waits && dot(d, c.xyz) + size * c.w >= square) slots[t] = 1u;
         }
+    }
+    sync();
+    for (uint t = lane; t < corner_top; t += LANES) {
+        uint at = slots[t] != 0u ? atomicAdd(open_count, 1u) : LANES;
+        if (at < LANES) lane_sum[at] = t;
+    }
+    sync();
+    uint open = open_count <= LANES ? open_count : 0u;
+    spend((total / LANES + 1u) * (corner_top + open + 2u));
+    for (uint k = lane; k < total && open != 0u; k += LANES) {
+        bool waits = list_key[k] != NO_INDEX && (list_key[k] & WAITING) != 0u, cuts = false;
+        uint id = waits ? list_site[k] : self;
+        ivec3 d = sites[id].xyz - site;
+        Plane e = Plane(d, id, int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z));
+        for (uint q = 0u; q < open; q++) cuts = removes(e, lane_sum[q]) || cuts;
+        if (waits && !cuts) list_key[k] = NO_INDEX;
     }
     sync();
 }
 
-// Gives every rim plane a free slot for its new corner; false when the slots are used up.
-bool closeRim(uint lane, uint e) {
-    uint mine = 0u, turns = turnsInUse();
-    for (uint k = 0u; k < PLANE_TURNS; k++) {
+// Gives every rim plane its new corner.
+void closeRim(uint lane, uint e) {
+    uint mine = 0u, turns = cornerTurns();
+    [[unroll]] for (uint k = 0u; k < PLANE_TURNS; k++) {
         uint p = lane * PLANE_TURNS + k;
         if (p < PLANES && rim_sum[min(p, PLANES - 1u)] != 0) mine += 1u;
     }
     for (uint k = 0u; k < turns; k++) {
-        uint t = k * LANES + lane;
-        if (t < CORNERS && corner_planes[min(t, CORNERS - 1u)].y == NO_CORNER) mine += 0x10000u;
+        uint t = lane * turns + k;
+        if (onCorner(t) && corner_planes[min(t, CORNERS - 1u)].y >= GONE) mine += 0x10000u;
     }
-    uint before = scanLanes(lane, mine);
-    uint total = scan_sum[LANES - 1];
-    uint slot = before >> 16, rank = before & 0xffffu;
+    uint before = sumBefore(lane, mine), slot = before >> 16, rank = before & 0xffffu;
+    uint gone = lane_sum[LANES - 1] >> 16, rim = lane_sum[LANES - 1] & 0xffffu, more = rim - min(rim, gone);
     for (uint k = 0u; k < turns; k++) {
-        uint t = k * LANES + lane;
-        if (t < CORNERS && corner_planes[min(t, CORNERS - 1u)].y == NO_CORNER) free_slots[slot++] = t;
+        uint t = lane * turns + k;
+        if (onCorner(t) && corner_planes[min(t, CORNERS - 1u)].y >= GONE) slots[slot++] = t;
     }
     sync();
-    bool fits = (total & 0xffffu) <= (total >> 16);
-    for (uint k = 0u; k < PLANE_TURNS; k++) {
+    bool fits = corner_top + more <= CORNERS;
+    [[unroll]] for (uint k = 0u; k < PLANE_TURNS; k++) {
         uint p = lane * PLANE_TURNS + k;
         int sum = p < PLANES ? rim_sum[min(p, PLANES - 1u)] : 0;
         if (sum != 0 && fits) {
             int next = (rim_squares[p] / sum + sum) / 2;
-            makeCorner(free_slots[rank], p, uint(next), e);
+            makeCorner(rank < gone ? slots[min(rank, CORNERS - 1u)] : corner_top + rank - gone, p, uint(next), e);
             rank++;
         }
         if (p < PLANES) {
@@ -266,194 +341,116 @@ bool closeRim(uint lane, uint e) {
             rim_squares[p] = 0;
         }
     }
-    return fits;
-}
-
-// Whether a bisector may still reach the cell, a candidate a lane: the cell only shrinks, so a no is for good.
-bool mayReach(vec3 d) {
-    float size = length(d), furthest = 0.0;
-    uint looked = corner_top <= SIEVE_CORNERS ? corner_top : 0u;
-    for (uint k = 0u; k < looked; k++) furthest = max(furthest, dot(d, corner_place[k].xyz) + size * corner_place[k].w);
-    return looked == 0u || furthest >= dot(d, d) * (1.0 - kPlaceError);
-}
-
-// Strikes out what can no longer cut, a candidate a lane: most candidates end here, and never cost an exact test.
-void sieveList(uint lane, ivec3 site) {
-    uint total = corner_top <= SIEVE_CORNERS ? list_count : 0u;
-    for (uint k = lane; k < total; k += LANES) {
-        uint listed = list_key[k];
-        if (listed != NO_INDEX && !mayReach(vec3(sites[list_site[k]].xyz - site))) list_key[k] = NO_INDEX;
-    }
+    status = fits ? status : CELL_OVERFLOW;
+    corner_top += fits ? more : 0u;
+    spend(2u * turns);
     sync();
 }
 
-// Lists the sites of one row of bins that may still cut; sites of rings seen before are passed over.
-void listRow(uint lane, uint self, ivec3 site, ivec3 home, uint first, uint last, int seen_ring) {
-    float reach = uintBitsToFloat(reach_bits);
-    uint k = first + lane;
-    bool in_row = k < last;
-    ivec4 q = bin_sites[in_row ? k : first];
-    ivec3 d = q.xyz - site;
-    ivec3 away = abs((q.xyz - box_low.xyz) / bins.w - home);
-    bool fresh = max(away.x, max(away.y, away.z)) > seen_ring;
-    vec3 f = vec3(d);
-    float distance = dot(f, f);
-    if (in_row && fresh && uint(q.w) != self && distance <= reach && mayReach(f)) {
-        uint s = atomicAdd(list_count, 1u);
-        list_key[s] = floatBitsToUint(distance);
-        list_site[s] = uint(q.w);
-    }
-}
-
-float ringDistance(ivec3 site, ivec3 home, int ring) {
-    float least = 1e30;
-    for (int k = 0; k < 3; k++) {
-        if (home[k] - ring > 0) least = min(least, float(site[k] - box_low[k] - (home[k] - ring) * bins.w));
-        if (home[k] + ring + 1 < bins[k]) least = min(least, float((home[k] + ring + 1) * bins.w - (site[k] - box_low[k])));
-    }
-    return least;
-}
-
-void main() {
-    uint lane = gl_LocalInvocationID.x, group = flatGroup();
-    bool queued = cell_count == NO_INDEX;
-    uint self = queued ? queue[uint(box_low.w) + group] : group;
-    bool idle = counts[STATUS_FAILED] != 0u || (!queued && group >= min(cell_count, counts[COUNT_SITES]));
-    self = idle ? 0u : self;
-    ivec3 site = sites[self].xyz;
-    for (uint k = 0u; k < PLANE_TURNS; k++) {
-        uint p = k * LANES + lane;
-        if (p < PLANES) {
-            rim_sum[p] = 0;
-            rim_squares[p] = 0;
-        }
-    }
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
-        if (k * LANES + lane < CORNERS) {
-            corner_planes[k * LANES + lane] = uvec2(NO_CORNER);
-            corner_place[k * LANES + lane] = vec4(0.0);
-        }
-    }
-    if (lane == 0u) {
-        reach_bits = 0u;
-        list_count = 0u;
-        corner_top = 0u;
-    }
-    sync();
-    startFromBox(lane, site);
-    sync();
-    measureReach(lane);
-    sync();
-
-    ivec3 home = min((site - box_low.xyz) / bins.w, bins.xyz - 1);
-    int ring = 0, seen_ring = -1;
-    uint row = 0u, row_done = 0u, plane_count = 6u, status = CELL_OK;
-    bool everything = false, finished = idle;
-    for (uint turn = 0u; turn < 4096u && !finished; turn++) {
-        // Fill the list: rows of this ring (or, far out, all sites at once), as many as fit.
-        int width = 2 * ring + 1;
-        uint rows = everything ? 1u : uint(2 * width * width);
-        bool room = true;
-        for (uint guard = 0u; guard < 16384u && row < rows && room; guard++) {
-            int y = home.y + int(row >> 1) % width - ring, z = home.z + int(row >> 1) / width - ring;
-            bool whole = abs(y - home.y) == ring || abs(z - home.z) == ring;
-            bool right = (row & 1u) != 0u;
-            int x0 = whole || !right ? home.x - ring : home.x + ring, x1 = whole ? home.x + ring : x0;
-            bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x && !(whole && right);
-            x0 = max(x0, 0);
-            x1 = min(x1, bins.x - 1);
-            uint line = inside ? uint((z * bins.y + y) * bins.x) : 0u;
-            uint first = inside ? bin_start[line + uint(x0)] : 0u, last = inside ? bin_start[line + uint(x1) + 1u] : 0u;
-            first = everything ? 0u : first;
-            last = everything ? counts[COUNT_SITES] : last;
-            listRow(lane, self, site, home, min(first + row_done, last), last, seen_ring);
-            row_done += LANES;
-            bool ended = first + row_done >= last;
-            row += ended ? 1u : 0u;
-            row_done = ended ? 0u : row_done;
-            sync();
-            room = list_count + LANES <= LIST_SIZE;
-            sync();
-        }
-        // Cut by what is listed, near to far.
-        for (uint step = 0u; step < 8192u; step++) {
-            selectNearest(lane);
-            uint slot = best_slot;
-            bool more = slot != NO_INDEX;
-            uint id = list_site[min(slot, LIST_SIZE - 1u)];
-            sync();
-            if (!more) break;
-            if (lane == 0u) list_key[slot] = NO_INDEX;
-            ivec3 d = sites[id].xyz - site;
+void cutByListed(uint lane, bool waiting_too) {
+    if (waiting_too) sieveWaiting(lane);
+    for (uint step = 0u; step < 16384u && budget > 0u && status == CELL_OK; step++) {
+        if (!takeNearest(lane, waiting_too)) break;
+        uint id = best_site, slot = best_slot;
+        ivec3 d = sites[id].xyz - site;
+        removeCertain(lane, vec3(d));
+        bool certain = removed_count != 0u, open = open_count != 0u;
+        sync();
+        if (!certain && open && !waiting_too && lane == 0u) list_key[slot] = floatBitsToUint(dot(vec3(d), vec3(d))) | WAITING;
+        if (certain || (open && waiting_too)) {
             int64_t r = int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z);
-            Plane e = Plane(d, id, r);
-            if (lane == 0u) setPlane(min(plane_count, PLANES - 1u), d, id, r);
-            if (plane_count >= PLANES - 1u) status = CELL_OVERFLOW;
-            removeCorners(lane, self, e);
-            bool cuts = removed_count != 0u;
-            bool fits = closeRim(lane, plane_count);
-            if (cuts && !fits) status = CELL_OVERFLOW;
-            plane_count += cuts ? 1u : 0u;
-            if (lane == 0u && cuts) reach_bits = 0u;
-            sync();
-            measureReach(lane);
-            sync();
-            sieveList(lane, site);
-            if (status != CELL_OK) break;
+            removeExact(lane, Plane(d, id, r));
+            if (removed_count != 0u) {
+                if (plane_count >= PLANES - 1u) status = CELL_OVERFLOW;
+                if (lane == 0u) setPlane(min(plane_count, PLANES - 1u), d, id, r);
+                sync();
+                closeRim(lane, plane_count);
+                plane_count++;
+                sieveList(lane);
+            }
         }
         sync();
-        if (lane == 0u) list_count = 0u;
-        bool ring_done = row >= rows;
-        if (ring_done) {
-            float clear = ringDistance(site, home, ring);
-            seen_ring = ring;
-            finished = everything || clear * clear * 0.9999 > uintBitsToFloat(reach_bits);
-            ring++;
-            // A shell of many short rows costs more than one look at every site.
-            everything = ring > NEAR_RINGS || uint(4 * (2 * ring + 1) * (2 * ring + 1)) > counts[COUNT_SITES] / LANES;
-            row = 0u;
+    }
+    measureReach(lane);
+}
+
+// Closes the gaps that struck candidates leave. A turn never writes beyond what it has read.
+void packList(uint lane) {
+    uint total = list_count;
+    sync();
+    if (lane == 0u) list_count = 0u;
+    sync();
+    for (uint first = 0u; first < total; first += LANES) {
+        uint s = min(first + lane, total - 1u), key = list_key[s], id = list_site[s];
+        sync();
+        if (first + lane < total && key != NO_INDEX) {
+            uint to = atomicAdd(list_count, 1u);
+            list_key[to] = key;
+            list_site[to] = id;
         }
+        sync();
+    }
+    spend(total / LANES + 1u);
+}
+
+void cutCell(uint lane) {
+    uint cube = 0u, next_line = 0u, done = 0u, total = 0u;
+    bool last = false, finished = false;
+    for (uint turn = 0u; turn < 4096u && !finished; turn++) {
+        bool all_bins = cube == 2u;
+        int width = 2 * ringsOf(cube) + 1;
+        uint lines = all_bins ? uint(bins.y * bins.z) : uint(width * width);
+        if (done >= total && next_line < lines && !last) {
+            total = openLines(lane, next_line, ringsOf(cube), all_bins);
+            next_line += LANES;
+            done = 0u;
+        }
+        for (uint guard = 0u; guard < 4096u && done < total && list_count + LANES <= LIST_SIZE && budget > 0u; guard++) {
+            sync();
+            listSites(lane, done + lane, total, cube == 0u ? -1 : ringsOf(cube - 1u));
+            done += LANES;
+        }
+        bool full = list_count + LANES > LIST_SIZE;
+        sync();
+        cutByListed(lane, last || full);
+        packList(lane);
+        bool searched = done >= total && next_line >= lines;
+        if (last) finished = true;
+        if (searched && !last) {
+            float clear = ringDistance(site, home, ringsOf(cube));
+            last = all_bins || clear * clear * 0.9999 > uintBitsToFloat(reach_bits);
+            finished = last && list_count == 0u;
+            cube = min(cube + 1u, 2u);
+            next_line = 0u;
+            done = 0u;
+            total = 0u;
+        }
+        if (budget == 0u) status = CELL_OVERFLOW;
         finished = finished || status != CELL_OK;
         sync();
     }
     if (!finished) status = CELL_OVERFLOW;
+}
 
-    uint base = raw_base;
+void writeCell(uint lane, uint group) {
 #ifdef WIDE_TRIPLES
-    base += group * (2u + PLANES + 2u * CORNERS);
+    uint base = raw_base + group * (2u + PLANES + 2u * CORNERS);
 #else
-    base += self * RAW_WORDS;
+    uint base = raw_base + self * RAW_WORDS;
 #endif
-    if (idle) return;
-    uint live = 0u;
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
-        uint t = lane * CORNER_TURNS + k;
+    uint live = 0u, turns = cornerTurns();
+    for (uint k = 0u; k < turns; k++) {
+        uint t = lane * turns + k;
+        if (onCorner(t) && corner_planes[min(t, CORNERS - 1u)].y < GONE) live++;
+    }
+    uint rank = sumBefore(lane, live);
+    for (uint k = 0u; k < turns; k++) {
+        uint t = lane * turns + k;
         uvec2 planes = corner_planes[min(t, CORNERS - 1u)];
-        if (t < CORNERS && planes.y != NO_CORNER) {
-            live++;
+        if (onCorner(t) && planes.y < GONE) {
             rim_squares[planes.x & 0xffffu] = 1; // this plane still bounds the cell
             rim_squares[planes.x >> 16] = 1;
             rim_squares[planes.y] = 1;
-        }
-    }
-    uint rank = scanLanes(lane, live);
-    if (lane == 0u) {
-        cell_raw[self] = uvec2(base, size_class);
-        raw[base] = status;
-        raw[base + 1u] = plane_count | (scan_sum[LANES - 1] << 16);
-        if (status != CELL_OK) {
-            uint at = atomicAdd(counts[COUNT_EXACT_SMALL + size_class + 1u], 1u);
-            if (at < next_capacity) queue[uint(box_high.w) + at] = self;
-        }
-    }
-    for (uint k = 0u; k < PLANE_TURNS; k++) {
-        uint p = k * LANES + lane;
-        if (p < PLANES) raw[base + 2u + p] = rim_squares[min(p, PLANES - 1u)] != 0 ? uint(plane_d[p].w) : NO_INDEX;
-    }
-    for (uint k = 0u; k < CORNER_TURNS; k++) {
-        uint t = lane * CORNER_TURNS + k;
-        uvec2 planes = corner_planes[min(t, CORNERS - 1u)];
-        if (t < CORNERS && planes.y != NO_CORNER) {
 #ifdef WIDE_TRIPLES
             raw[base + 2u + PLANES + 2u * rank] = planes.x;
             raw[base + 3u + PLANES + 2u * rank] = planes.y;
@@ -463,4 +460,29 @@ void main() {
             rank++;
         }
     }
+    sync();
+    for (uint p = lane; p < PLANES; p += LANES) raw[base + 2u + p] = rim_squares[p] != 0 ? uint(plane_d[p].w) : NO_INDEX;
+    if (lane == 0u) {
+        cell_raw[self] = uvec2(base, size_class);
+        raw[base] = status;
+        raw[base + 1u] = plane_count | (lane_sum[LANES - 1] << 16);
+        if (status != CELL_OK) {
+            uint at = atomicAdd(counts[COUNT_EXACT_SMALL + size_class + 1u], 1u);
+            if (at < next_capacity) queue[uint(box_high.w) + at] = self;
+        }
+    }
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x, group = flatGroup();
+    bool queued = cell_count == NO_INDEX;
+    if (counts[STATUS_FAILED] != 0u || (!queued && group >= min(cell_count, counts[COUNT_SITES]))) return;
+    self = queued ? queue[uint(box_low.w) + group] : group;
+    site = sites[self].xyz;
+    home = min((site - box_low.xyz) / bins.w, bins.xyz - 1);
+    status = CELL_OK;
+    budget = kTurnBudget;
+    startFromBox(lane);
+    cutCell(lane);
+    writeCell(lane, group);
 }

@@ -64,6 +64,7 @@
 #define STATUS_ROUNDS_LEFT (2 * COUNT_TOTAL + 13)
 #define STATUS_TURNED_OVER (2 * COUNT_TOTAL + 14)
 #define STATUS_BAD_WELD (2 * COUNT_TOTAL + 15)
+#define STATUS_CROWDED (2 * COUNT_TOTAL + 16)  /* sites in the fullest bin, where there are too many to be ordered */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u
@@ -78,6 +79,8 @@
 #define CELL_OK 0u
 #define CELL_UNDECIDED 1u
 #define CELL_OVERFLOW 2u
+
+#define MOST_IN_A_BIN 16384u
 
 #define MAX_SIDES 24
 

@@ -159,6 +159,7 @@ void layOutSites(Taker& take, const Capacities& c, const TriangleColumns& column
     b.bin_counts = take.words(c.bins);
     b.bin_start = take.words(c.bins + 1ull);
     b.bin_cursors = take.words(c.bins);
+    b.loose_sites = take.words(c.sites);
     b.bin_sites = take.quads(c.sites);
 }
 

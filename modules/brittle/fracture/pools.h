@@ -42,7 +42,7 @@ struct EventBuffers {
     View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, corner_attributes, grid_vertices;
     // sites
     View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags, site_offsets;
-    View sites, bin_counts, bin_start, bin_cursors, bin_sites;
+    View sites, bin_counts, bin_start, bin_cursors, loose_sites, bin_sites;
     // cells
     View raw, cell_raw, queue, store, cell_counts, cell_offsets, neighbors, corners, corner_info, vertex_sites, edge_sites, edge_ends;
     View face_cells;

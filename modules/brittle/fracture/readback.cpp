@@ -102,8 +102,10 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
     if (s[STATUS_UNPLACED] != 0)
         return engine::Error{engine::ErrorCode::BadInput, number(STATUS_UNPLACED) + " sites found no place inside the model, which fills too little "
                                                                                     "of its box; give the sites with --sites-file"};
+    if (s[STATUS_CROWDED] != 0)
+        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_CROWDED) + " sites lie too close together for the spread of the others; leave some out"};
     if (s[STATUS_BAD_CELLS] != 0)
-        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CELLS) + " cells have more than 2048 faces; spread the sites"};
+        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CELLS) + " cells have too many faces or neighbors to be cut; spread the sites"};
     if (s[STATUS_BAD_CAP] != 0)
         return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CAP) + " cut faces have more than " + std::to_string(HUGE_FACE) +
                                                               " edges or too many loops; use more sites or a coarser mesh"};

@@ -54,7 +54,9 @@ void recordBinning(const Event& e) {
         Int4 bins, low;
     } bin = {g.bins, {g.box_low[0], g.box_low[1], g.box_low[2], 0}};
     e.record.run("bin_sites", Length::of(e.capacity.sites), bin,
-                 {e.record.counts(), e.b.sites, e.b.bin_start, e.b.bin_cursors, e.b.bin_sites});
+                 {e.record.counts(), e.b.sites, e.b.bin_start, e.b.bin_cursors, e.b.loose_sites});
+    e.record.run("order_bins", Length::of(e.capacity.sites), bin,
+                 {e.record.counts(), e.b.sites, e.b.bin_start, e.b.loose_sites, e.b.bin_sites});
 }
 
 } // namespace

@@ -1,0 +1,30 @@
+// Counting sort of the sites into the search grid, second half: in each bin by id, so that nothing later depends on which
+// lane came first.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+
+FLAT_KERNEL;
+UPDATES(0, uint, counts);
+READS(1, ivec4, sites);
+READS(2, uint, bin_start);
+READS(3, uint, loose_sites);
+WRITES(4, ivec4, bin_sites); // position and id
+layout(push_constant) uniform Push {
+    ivec4 bins;
+    ivec4 box_low;
+};
+
+void main() {
+    uint s = flatIndex();
+    if (s >= counts[COUNT_SITES]) return;
+    ivec3 p = sites[s].xyz, b = min((p - box_low.xyz) / bins.w, bins.xyz - 1);
+    uint bin = uint((b.z * bins.y + b.y) * bins.x + b.x), first = bin_start[bin], last = bin_start[bin + 1u], rank = 0u;
+    if (last - first > MOST_IN_A_BIN) {
+        atomicMax(counts[STATUS_CROWDED], last - first);
+        atomicOr(counts[STATUS_FAILED], FAILED_CELLS);
+    }
+    last = min(last, first + MOST_IN_A_BIN);
+    for (uint k = first; k < last; k++) rank += loose_sites[k] < s ? 1u : 0u;
+    bin_sites[first + rank] = ivec4(p, int(s));
+}
