@@ -50,6 +50,7 @@ public:
     // Makes many side by side, on all cores.
     Result<void> warm(std::span<const KernelRequest> requests);
 
+    std::span<const shaders::Module> modules() const { return modules_; }
     uint32_t kernelCount() const;
     double creationMs() const; // in the driver, added up over all pipelines, also those made at the same time
 

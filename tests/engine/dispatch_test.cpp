@@ -1,3 +1,4 @@
+#include "engine/kernel_warmup.h"
 #include "tests/engine/test_device.h"
 
 #include <algorithm>
@@ -150,4 +151,25 @@ TEST(Copy, MovesRangesAndFillsThem) {
     commands.copy({&source, 0, 0}, target);
     finish(commands);
     EXPECT_EQ(wordsOf(target), (std::vector<uint32_t>{5, 12, 13, 14, 5, 5, 5, 5}));
+}
+
+TEST(KernelWarmup, LeavesKernelsAsUsableAsWithoutIt) {
+    KernelLibrary library(device(), shaders::engineTestKernels());
+    {
+        KernelWarmup warmup(device(), library, {"increment", "no kernel of ours", "add_index"});
+        warmup.finish();
+    }
+    auto increment = library.get("increment");
+    ASSERT_TRUE(increment);
+    const Buffer words = upload(device(), {41});
+    Commands commands(device());
+    ASSERT_TRUE(commands.begin());
+    commands.dispatch(**increment, 1, NoPush{}, {words});
+    finish(commands);
+    EXPECT_EQ(wordsOf(words)[0], 42u);
+}
+
+TEST(KernelWarmup, EndsWhenItIsNoLongerWanted) {
+    KernelLibrary library(device(), shaders::engineTestKernels());
+    const KernelWarmup warmup(device(), library, std::vector<std::string_view>(1000, "increment"));
 }

@@ -1,9 +1,11 @@
 #include "modules/brittle/fracture/fracture.h"
 
+#include "engine/kernel_warmup.h"
 #include "modules/brittle/fracture/event.h"
 #include "modules/brittle/fracture/readback.h"
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
+#include "modules/brittle/fracture/warm_kernels.h"
 
 #include <chrono>
 
@@ -26,7 +28,7 @@ struct Attempt {
 
 class FractureDevice final : public Fracture {
 public:
-    explicit FractureDevice(engine::Device& device) : device_(device), kernels_(device) {}
+    explicit FractureDevice(engine::Device& device) : device_(device), kernels_(device), warmup_(device, kernels_, kernelsToWarm()) {}
 
     engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options) override {
         auto start = Clock::now();
@@ -134,7 +136,7 @@ private:
         layOut(*arena, capacity, mesh, p.columns, b);
         if (auto ok = arena->status(); !ok) return ok.error();
         // No more than one binding can hold; what does not fit is reported like any full pool.
-        uint32_t most = device_.limits().maxStorageBufferRange / (3 * sizeof(FragmentVertex));
+        auto most = static_cast<uint32_t>(device_.limits().maxStorageBufferRange / (3 * sizeof(FragmentVertex)));
         capacity.emitted = std::min(capacity.emitted, most);
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
@@ -168,6 +170,7 @@ private:
 
     engine::Device& device_;
     engine::KernelLibrary kernels_;
+    engine::KernelWarmup warmup_;
 };
 
 } // namespace
