@@ -22,6 +22,11 @@ READS(12, uint, triangles);
 READS(13, float, corner_attributes); // normal, uv
 WRITES(14, float, vertices);
 WRITES(15, uint, indices);
+// A binding may be smaller than the pools: this dispatch writes the triangles of one part of them, to which it is bound.
+layout(push_constant) uniform Push {
+    uint first_triangle;
+    uint triangle_count;
+};
 
 vec3 modelVertex(uint v) { return vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]); }
 
@@ -56,6 +61,8 @@ void main() {
     uvec2 within = rank.xy - class_offsets[component_start[c]].xy + share.xy;
     uint first = demand_offsets[fates[c].y].y;
     uint local = outer ? within.x : share.z + within.y;
+    uint to_triangle = first + local - first_triangle;
+    if (first + local < first_triangle || to_triangle >= triangle_count) return;
     uvec4 piece = pieces[t];
     uint source = sources[t] & ~INNER_BIT;
     bool cap = (sources[t] & INNER_BIT) != 0u;
@@ -78,7 +85,7 @@ void main() {
         }
         float length_ = length(n);
         n = length_ > 1e-6 ? n / length_ : flat_normal;
-        uint to = 3u * (first + local) + corner;
+        uint to = 3u * to_triangle + corner;
         saveVertex(to, p, cap ? flat_normal : n, cap ? vec2(dot(p, u), dot(p, w)) : uv);
         indices[to] = 3u * local + corner;
     }

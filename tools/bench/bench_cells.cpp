@@ -20,6 +20,7 @@ engine::Result<double> ourCells(brittle::Fracture& fracture, const brittle::Prep
                                 const std::vector<Point>& sites) {
     brittle::FractureOptions options;
     options.given_sites = sites;
+    options.only_cells = true;
     auto result = fracture.shatter(cube.mesh, cube.topology, options);
     if (!result) return result.error();
     return stageMs(*result, {"neighbor_grid", "cut_cells"});

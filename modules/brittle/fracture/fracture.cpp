@@ -57,6 +57,11 @@ private:
         std::vector<Double3> local_sites;
     };
 
+    // Triangles whose vertices one binding can hold; whole multiples of any alignment of views.
+    static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
+        uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
+        return static_cast<uint32_t>(std::min<uint64_t>(fit, 1u << 28)) / 256 * 256;
+    }
     static uint32_t siteCount(const FractureOptions& options) {
         return options.given_sites.empty() ? options.site_count : static_cast<uint32_t>(options.given_sites.size());
     }
@@ -111,6 +116,7 @@ private:
     static void recordAll(const Event& event) {
         recordSites(event);
         recordCells(event);
+        if (event.options.only_cells) return;
         recordClassification(event);
         recordClipping(event);
         recordPlaces(event);
@@ -135,9 +141,7 @@ private:
         if (!arena) return arena.error();
         layOut(*arena, capacity, mesh, p.columns, b);
         if (auto ok = arena->status(); !ok) return ok.error();
-        // No more than one binding can hold; what does not fit is reported like any full pool.
-        auto most = static_cast<uint32_t>(device_.limits().maxStorageBufferRange / (3 * sizeof(FragmentVertex)));
-        capacity.emitted = std::min(capacity.emitted, most);
+        capacity.emit_window = emitWindow(device_.limits());
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
         engine::Commands commands(device_);

@@ -18,6 +18,7 @@ struct FractureOptions {
     uint32_t site_count = 100;         // asked of the pattern; ignored where sites are given
     uint64_t seed = 1;
     std::vector<Double3> given_sites;  // model space; empty: pattern `uniform`
+    bool only_cells = false;           // stop once the Voronoi cells are there: no fragments, for measuring
 };
 
 struct FractureCounts {

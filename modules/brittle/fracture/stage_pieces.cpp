@@ -1,6 +1,7 @@
 // Pieces: surface and caps split into islands, measured, given room in the scene's pools, and written there.
 #include "modules/brittle/fracture/event.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace brittle {
@@ -42,6 +43,19 @@ void recordSorting(const Event& e) {
         r.runGroups("radix_scatter", r.blocksOf(COUNT_VALID), push,
                     {r.counts(), *keys[from], *values[from], b.digit_offsets, *keys[to], *values[to]});
     }
+}
+
+void recordEmitWindow(const Event& e, uint32_t first) {
+    const auto& b = e.b;
+    struct Push {
+        uint32_t first_triangle, triangle_count;
+    } push = {first, std::min(e.capacity.emit_window, e.capacity.emitted - first)};
+    constexpr VkDeviceSize kVertexBytes = 3 * sizeof(FragmentVertex), kIndexBytes = 3 * sizeof(uint32_t);
+    e.record.run("emit", Length::counted(COUNT_VALID), push,
+                 {e.record.counts(), b.values, b.components, b.pieces, b.sources, b.positions, b.class_offsets, b.component_start, b.shares,
+                  b.demand_offsets, b.fates, b.mesh_positions, b.mesh_triangles, b.corner_attributes,
+                  e.scene.vertices.sub(kVertexBytes * first, kVertexBytes * push.triangle_count),
+                  e.scene.indices.sub(kIndexBytes * first, kIndexBytes * push.triangle_count)});
 }
 
 } // namespace
@@ -88,9 +102,7 @@ void recordEmission(const Event& e) {
            {{COUNT_FRAGMENTS, COUNT_EMITTED, NO_INDEX, NO_INDEX}, {c.fragments, c.emitted, 0, 0}}, true);
     r.commands().endLabel();
     r.commands().beginLabel("emit");
-    r.run("emit", Length::counted(COUNT_VALID), engine::NoPush{},
-          {r.counts(), b.values, b.components, b.pieces, b.sources, b.positions, b.class_offsets, b.component_start, b.shares,
-           b.demand_offsets, b.fates, b.mesh_positions, b.mesh_triangles, b.corner_attributes, e.scene.vertices, e.scene.indices});
+    for (uint32_t first = 0; first < c.emitted; first += c.emit_window) recordEmitWindow(e, first);
     r.run("emit_objects", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
           {r.counts(), b.records, b.fates, b.demand_offsets, b.shares, e.scene.draw_commands, e.scene.bounds, e.scene.fragments,
            e.scene.matrices, e.scene.objects});
