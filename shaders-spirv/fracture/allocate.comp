@@ -4,12 +4,13 @@
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, uint, component_start);
 READS(2, uvec4, class_offsets);
 READS(3, uvec2, fates);
 WRITES(4, uvec4, demands);  // fragment, triangles
 WRITES(5, uvec4, shares);   // outer and inner triangles before this component's in its fragment; of the whole fragment
+READS(6, uint, cavities);
 
 uvec2 sizeOf(uint c) { return class_offsets[component_start[c + 1u]].xy - class_offsets[component_start[c]].xy; }
 
@@ -17,8 +18,10 @@ void main() {
     uint c = flatIndex();
     if (c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u) return;
     uvec2 fate = fates[c], total = sizeOf(fate.y), before = fate.y != c ? total : uvec2(0u);
-    uint others = counts[STATUS_CAVITIES] != 0u ? counts[COUNT_COMPONENTS] : 0u;
-    for (uint o = 0u; o < others; o++) {
+    uint others = min(counts[COUNT_CAVITIES], MOST_TURNS);
+    if (counts[COUNT_CAVITIES] > others) atomicOr(counts[STATUS_BAD_UNION], 1u);
+    for (uint k = 0u; k < others; k++) {
+        uint o = cavities[k];
         if (o != fate.y && fates[o] == uvec2(FATE_CAVITY, fate.y)) {
             uvec2 size = sizeOf(o);
             total += size;

@@ -357,9 +357,10 @@ void main() {
     orderHoles(lane);
     bridgeHoles(lane);
 
-    // Of the 65,535 loop turns that Mesa's software device allows: a quarter for looks at reflex corners.
-    uint phase = 0u, budget = 16000u, made = 0u;
-    for (uint round = 0u; round < 4096u && n > 0u; round++) {
+    // Of the 65,535 loop turns that Mesa's software device allows: a quarter for looks at reflex corners, a half for the rounds.
+    uint phase = 0u, budget = 16000u, made = 0u, rounds = 30000u / (5u * (node_total / LANES + 1u));
+    bool finished = n == 0u;
+    for (uint round = 0u; round < rounds && !finished; round++) {
         if (lane == 0u) {
             reflex_total = 0u;
             alive_total = 0u;
@@ -379,8 +380,7 @@ void main() {
             }
         }
         sync();
-        uint alive = alive_total;
-        if (alive == 0u) break;
+        finished = alive_total == 0u;
         for (uint k = lane; k < node_total; k += LANES) {
             bool candidate = live(k) && rings[base + k].w == 0u;
             uint p = candidate ? previousOf(k) : 0u, s = candidate ? nextOf(k) : 0u;
@@ -424,4 +424,5 @@ void main() {
         barrier();
     }
     if (lane == 0u && n > 0u) cap_counts[index] = made;
+    if (lane == 0u && !finished) atomicAdd(counts[STATUS_BAD_CAP], 1u);
 }

@@ -64,16 +64,19 @@ void main() {
     for (uint k = 0u; k < 3u; k++) side[k] = EDGE_BASE + k;
 
     uint next = cell_offsets[i].x, last = cell_offsets[i + 1u].x;
-    for (uint turn = 0u; turn < 8192u && next < last && n > 0u; turn++) {
+    uint budget = MOST_TURNS;
+    for (uint turn = 0u; turn < 8192u && next < last && n > 0u && budget > 0u; turn++) {
         // Search until every lane has a bisector that may cut, then cut together.
         Row l;
         bool found = false;
         for (; next < last && !found; next++) {
+            budget -= min(budget, 1u);
             l = rowOf(i, qi, neighbors[next]);
             found = !nearerTo(l.v[0], i, l.id) || !nearerTo(l.v[1], i, l.id) || !nearerTo(l.v[2], i, l.id);
             if (isZero(l.v[0]) && isZero(l.v[1]) && isZero(l.v[2])) flat_with = l.id;
         }
         uint gone = 0u, count = found ? n : 0u;
+        budget -= min(budget, 3u * count + 4u);
         Row before = l;
         for (uint k = 0u; k <= count && count > 0u; k++) {
             Row here = rowOf(i, qi, side[k < count ? k : 0u]);
@@ -98,8 +101,8 @@ void main() {
     }
 
     if (flat_with != NO_INDEX && solidSide(qi, sites[flat_with].xyz) <= 0) flat_with = NO_INDEX;
-    if (broken) {
-        atomicAdd(counts[STATUS_BAD_CLIP], 1u);
+    if (broken || budget == 0u) {
+        atomicAdd(counts[broken ? STATUS_BAD_CLIP : STATUS_TOO_LONG], 1u);
         atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
     }
     pair_shape[p] = uvec2(n, flat_with);

@@ -28,6 +28,9 @@ layout(push_constant) uniform Push {
     ivec4 box_low;
     ivec4 box_high;
     uint slots;
+    // Loop turns that a lane may take. Mesa's software device stops a subgroup at 65,535 without a word, and lanes that run in
+    // step may each take theirs at different times. Unrolled loops take none.
+    uint turn_budget;
 };
 #include "lib/bin_lines.glsl"
 
@@ -36,10 +39,6 @@ const float kCornerError = 12.0 * kRoundoff;
 const float kTestError = 8.0 * kRoundoff;
 const uint kNoKey = 0xffffffffu;
 const float kMaxRelativeError = 0.2; // beyond, a corner says nothing
-// Loop turns of one lane. Lanes that run in step may each spend theirs at different times, and Mesa's software device stops
-// a subgroup (8 lanes, 16 at most) without a word at 65,535: an eighth of that is safe. Loops with fixed bounds are unrolled
-// and take none.
-const uint kTurnBudget = 7900u;
 
 // Phases of a cell's search: the bins around its own, those around these, all lines of bins further out, and what was put off.
 const uint kRingOne = 1u, kRingTwo = 2u, kLines = 3u, kPutOff = 4u, kFinished = 5u;
@@ -222,7 +221,7 @@ void cutBy(uint gone_low, uint gone_high, vec3 e, uint id) {
         makeCorner(takeFree(), at, next, plane_count);
         at = next;
         open = at != start && status == CELL_OK;
-        budget -= min(budget, 1u);
+        budget -= min(budget, 3u); // with those two that will remove this corner
     }
     plane_count += cuts ? 1u : 0u;
 }
@@ -346,6 +345,7 @@ void cutByListed(uint lane, ivec3 site) {
         drained = drained || status != CELL_OK;
     }
     for (uint k = 0u; k < count; k++) key[k] = kNoKey;
+    budget -= min(budget, count + 1u);
     count = 0u;
 }
 
@@ -402,7 +402,7 @@ void main() {
     line_z = 0u;
     count = 0u;
     put_off_count = 0u;
-    budget = kTurnBudget;
+    budget = turn_budget;
     startFromBox(site);
     reach = 1e30;
     for (uint turn = 0u; turn < 1024u && phase != kFinished; turn++) {

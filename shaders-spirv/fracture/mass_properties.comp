@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/sum.glsl"
 #include "shared/fragment_record.h"
 
 FLAT_KERNEL;
@@ -26,7 +27,7 @@ void main() {
     uint first = idle ? 0u : component_start[c], last = idle ? 0u : component_start[c + 1u];
     uvec4 lead = pieces[order[first]];
     precise vec3 origin = positions[lead.x].xyz;
-    precise vec4 sum = vec4(0.0), moment = vec4(0.0);
+    vec4 sum = vec4(0.0), moment = vec4(0.0), lost_sum = vec4(0.0), lost_moment = vec4(0.0);
     vec4 low = vec4(1e38), high = vec4(-1e38);
     for (uint k = first + lane; k < last; k += GROUP_SIZE) {
         uint t = order[k];
@@ -34,8 +35,9 @@ void main() {
         precise vec3 a = positions[piece.x].xyz - origin, b = positions[piece.y].xyz - origin, d = positions[piece.z].xyz - origin;
         precise float volume = dot(a, cross(b, d)) / 6.0;
         precise float area = 0.5 * length(cross(b - a, d - a));
-        sum += vec4(volume, area, (sources[t] & INNER_BIT) == 0u ? area : 0.0, length(b - a) + length(d - b) + length(a - d));
-        moment += vec4(0.25 * volume * (a + b + d), 0.0);
+        float outer_area = (sources[t] & INNER_BIT) == 0u ? area : 0.0, perimeter = length(b - a) + length(d - b) + length(a - d);
+        addTo(sum, lost_sum, vec4(volume, area, outer_area, perimeter));
+        addTo(moment, lost_moment, vec4(0.25 * volume * (a + b + d), 0.0));
         low = min(low, vec4(min(a, min(b, d)), 0.0));
         high = max(high, vec4(max(a, max(b, d)), 0.0));
     }

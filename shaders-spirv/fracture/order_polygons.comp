@@ -5,7 +5,7 @@
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, uvec2, pairs);
 READS(2, uvec2, pair_shape);
 READS(3, uint, pair_sides);
@@ -21,6 +21,11 @@ void main() {
     uint p = loose_polygons[at];
     uvec2 pair = pairs[p], shape = pair_shape[p];
     uint rank = polygon_offsets[pair.x], last = polygon_offsets[pair.x + 1u];
+    if (last - rank > MOST_TURNS) {
+        atomicAdd(counts[STATUS_TOO_LONG], 1u);
+        atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
+        last = rank;
+    }
     for (uint k = polygon_offsets[pair.x]; k < last; k++) rank += pairs[loose_polygons[k]].y < pair.y ? 1u : 0u;
     uvec4 sum = uvec4(shape.x, 0u, shape.y != NO_INDEX ? shape.x : 0u, shape.x - 2u);
     uint side = pair_sides[p * MAX_SIDES + shape.x - 1u];

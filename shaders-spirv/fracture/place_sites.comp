@@ -75,13 +75,13 @@ void main() {
         }
         uint last = candidate ? column_start[column + 1u] : 0u;
         int winding = 0;
-        for (uint k = candidate ? column_start[column] : 0u; k < last; k++) {
+        for (uint k = candidate ? column_start[column] : 0u; k < last && budget > 0u; k++) {
             uint t = column_triangles[k];
             winding += windingAbove(grid_vertices[triangles[3u * t]].xyz, grid_vertices[triangles[3u * t + 1u]].xyz,
                                     grid_vertices[triangles[3u * t + 2u]].xyz, p);
             budget -= min(budget, 1u);
         }
-        done = winding > 0;
+        done = winding > 0 && budget > 0u;
         if (done) {
             raw_sites[3u * site] = uint(p.x);
             raw_sites[3u * site + 1u] = uint(p.y);

@@ -34,7 +34,8 @@ void main() {
             uint other = held == 0u ? t : (held - 1u) / 3u;
             bool same = held != 0u && edgeKey(pieces[other], (held - 1u) % 3u) == key;
             settled = held == 0u || same;
-            if (same) unite(t, other);
+            bool united = unite(same ? other : t, t);
+            settled = settled && united;
         }
         if (!settled) atomicAdd(counts[STATUS_BAD_UNION], 1u);
     }

@@ -11,7 +11,8 @@ uint rootOf(uint x) {
     return x;
 }
 
-void unite(uint a, uint b) {
+// False where others kept moving the roots: as good as never.
+bool unite(uint a, uint b) {
     bool joined = false;
     for (uint guard = 0u; guard < 256u && !joined; guard++) {
         a = rootOf(a);
@@ -22,4 +23,5 @@ void unite(uint a, uint b) {
         a = held;
         b = low;
     }
+    return joined;
 }

@@ -44,7 +44,8 @@
 #define COUNT_RADIX 29
 #define COUNT_EMITTED 30         /* triangles of all fragments */
 #define COUNT_DRAWS 31
-#define COUNT_TOTAL 32
+#define COUNT_CAVITIES 32
+#define COUNT_TOTAL 33
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL
@@ -58,13 +59,13 @@
 #define STATUS_UNPLACED (2 * COUNT_TOTAL + 7)
 #define STATUS_WELDED (2 * COUNT_TOTAL + 8)
 #define STATUS_DISSOLVED (2 * COUNT_TOTAL + 9)
-#define STATUS_CAVITIES (2 * COUNT_TOTAL + 10)
 #define STATUS_REDONE (2 * COUNT_TOTAL + 11)
 #define STATUS_EMPTY_CELLS (2 * COUNT_TOTAL + 12)
 #define STATUS_ROUNDS_LEFT (2 * COUNT_TOTAL + 13)
 #define STATUS_TURNED_OVER (2 * COUNT_TOTAL + 14)
 #define STATUS_BAD_WELD (2 * COUNT_TOTAL + 15)
 #define STATUS_CROWDED (2 * COUNT_TOTAL + 16)  /* sites in the fullest bin, where there are too many to be ordered */
+#define STATUS_TOO_LONG (2 * COUNT_TOTAL + 17) /* edges and triangles that meet more cells than one lane can walk */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u
@@ -80,7 +81,11 @@
 #define CELL_UNDECIDED 1u
 #define CELL_OVERFLOW 2u
 
+// Mesa's software device stops a lane without a word after 65,535 loop turns: what could come near asks beforehand, or
+// counts, and fails the event with a message.
 #define MOST_IN_A_BIN 16384u
+#define MOST_TURNS 50000u
+#define MOST_CELLS_OF_AN_EDGE 8000u
 
 #define MAX_SIDES 24
 

@@ -44,7 +44,7 @@ struct CutPush {
 
 struct FilterPush {
     Int4 bins, box_low, box_high;
-    uint32_t slots;
+    uint32_t slots, turn_budget;
 };
 
 // Queues and raw cells of the classes lie one after the other.
@@ -155,7 +155,7 @@ RawCells cutRaw(const SiteSet& set, Path path) {
     const engine::Buffer store = blankBuffer<uint32_t>(words.store);
     const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
-        const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n};
+        const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
         commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_start, bin_sites, result.raw, result.at});
         commands.dispatch(kernel("queue_cells"), n, n, {counts.words, result.raw, queue});
     };

@@ -12,6 +12,7 @@
 #include "tests/reference/contract.h"
 #include "tests/reference/model_file.h"
 #include "tests/support/shared_meshes.h"
+#include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
 
@@ -248,6 +249,34 @@ TEST(LongFractureLimits, AModelOfManyTriangles) {
     options.site_count = 100;
     expectContract(modelFrom("builtin:bumpy:7"), options); // 327,680 triangles
 }
+
+Model hollowSphere(uint32_t level) {
+    using namespace brittle;
+    using namespace support;
+    return modelFrom(makeIcosphere(level) + turnedOver(moved(makeIcosphere(level), 0.9, {0, 0, 0})));
+}
+
+void expectContractOf(const Model& model, std::initializer_list<uint32_t> site_counts) {
+    for (const uint32_t count : site_counts) {
+        SCOPED_TRACE(count);
+        FractureOptions options;
+        options.site_count = count;
+        expectContract(model, options);
+    }
+}
+
+TEST(FractureCavities, StayWithThePieceAroundThem) {
+    using namespace brittle;
+    using namespace support;
+    expectContractOf(hollowSphere(3), {1, 2, 40});
+    brittle::ImportedMesh cheese = moved(makeCube(), 10, {0, 0, 0});
+    for (int k = 0; k < 125; ++k)
+        cheese = cheese + turnedOver(moved(makeIcosphere(1), 0.4, {1.5 * (k % 5 - 2), 1.5 * (k / 5 % 5 - 2), 1.5 * (k / 25 - 2)}));
+    expectContractOf(modelFrom(cheese), {1, 8, 100});
+}
+
+// More triangles around the hollow than one lane may walk.
+TEST(FractureCavities, OfALargeModelInOnePiece) { expectContractOf(hollowSphere(6), {1, 3}); }
 
 TEST(FractureRefuses, NoSitesAndSitesFarAway) {
     const Model cube = modelFrom("builtin:cube");

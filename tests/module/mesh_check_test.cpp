@@ -4,36 +4,18 @@
 #include "modules/brittle/mesh/primitives.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/support/shared_meshes.h"
+#include "tests/support/solids.h"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 #include <random>
 
 using namespace brittle;
+using namespace support;
 
 namespace {
-
-ImportedMesh moved(ImportedMesh mesh, double scale, const Double3& by) {
-    for (Double3& p : mesh.positions)
-        p = scale * p + by;
-    return mesh;
-}
-
-ImportedMesh turnedOver(ImportedMesh mesh) {
-    for (Index3& t : mesh.triangles)
-        std::swap(t[1], t[2]);
-    return mesh;
-}
-
-ImportedMesh operator+(ImportedMesh a, const ImportedMesh& b) {
-    const auto first = static_cast<uint32_t>(a.positions.size());
-    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
-    for (const Index3& t : b.triangles)
-        a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    a.corner_normals.resize(3 * a.triangles.size());
-    a.corner_uvs.resize(3 * a.triangles.size());
-    return a;
-}
 
 // The unit cube with the other diagonal in every face.
 ImportedMesh otherCube() {

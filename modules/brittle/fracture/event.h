@@ -21,6 +21,7 @@ struct Event {
     const EventBuffers& b;
     const ScenePools& scene;
     Recorder& record;
+    uint32_t turn_budget; // loop turns of a lane of cut_cells
 };
 
 // place_sites, neighbor_grid

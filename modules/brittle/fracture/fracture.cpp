@@ -21,6 +21,9 @@ double millisecondsSince(Clock::time_point start) {
 // An event that ran out of room says what it needs; each attempt can find out about one more pool.
 constexpr uint32_t kMaxAttempts = 12;
 
+// A workgroup adds up the triangles of a fragment, which may be all of the mesh.
+constexpr size_t kMostTriangles = 3'000'000;
+
 struct Attempt {
     FractureResult result;
     std::vector<uint32_t> status;
@@ -57,6 +60,8 @@ private:
         std::vector<Double3> local_sites;
     };
 
+    // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit.
+    static uint32_t turnBudget(const engine::Device& device) { return device.isCpu() ? 60'000 / device.subgroupSize() : 1u << 20; }
     // Triangles whose vertices one binding can hold; whole multiples of any alignment of views.
     static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
         uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
@@ -69,6 +74,8 @@ private:
     static engine::Result<Prepared> prepare(const Mesh& mesh, const FractureOptions& options) {
         if (siteCount(options) == 0) return engine::Error{engine::ErrorCode::BadInput, "no sites: ask for at least one"};
         if (mesh.triangles.empty()) return engine::Error{engine::ErrorCode::BadInput, "the mesh has no triangles"};
+        if (mesh.triangles.size() > kMostTriangles)
+            return engine::Error{engine::ErrorCode::Capacity, "the mesh has more than " + std::to_string(kMostTriangles) + " triangles; reduce it"};
         Prepared p;
         for (Double3 s : options.given_sites) {
             for (size_t k = 0; k < 3; k++) s[k] -= mesh.center[k];
@@ -157,7 +164,7 @@ private:
         clear(commands, b);
         upload.copy(commands, *staging);
         Recorder recorder(commands, kernels_, b.counts, b.args);
-        recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder});
+        recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, turnBudget(device_)});
         if (auto ok = recorder.status(); !ok) return ok.error();
         auto start = Clock::now();
         if (auto ok = commands.submitAndWait(); !ok) return ok.error();

@@ -97,6 +97,7 @@ bool Capacities::grow(const uint32_t* status) {
     more |= takeUp(medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
     more |= takeUp(large_cells, status[COUNT_EXACT_MEDIUM] != 0); // who needs the one often needs the other
     more |= takeUp(huge_faces, status[COUNT_HUGE_FACES] != 0);
+    more |= takeUp(cavities, status[COUNT_CAVITIES] != 0);
     if (status[STATUS_ROUNDS_LEFT] != 0) {
         clip_rounds = clip_rounds * 2 + 8;
         more = true;
@@ -263,6 +264,8 @@ void layOutPieces(Taker& take, const Capacities& c, EventBuffers& b) {
     b.component_start = take.words(c.components + 1ull);
     b.records = take.words(24ull * c.components);
     b.fates = take.words(2ull * c.components);
+    b.cavities = take.words(c.components);
+    b.ordered_cavities = take.words(c.components);
     b.classes = take.quads(n);
     b.class_offsets = take.quads(n + 1);
     b.demands = take.quads(c.components);

@@ -23,7 +23,7 @@ struct Capacities {
     uint32_t clip_rounds = 0;
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
-    bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false;
+    bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, cavities = false;
 
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
     uint32_t pointTable() const;
@@ -60,7 +60,7 @@ struct EventBuffers {
     View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_counts, cap_offsets, nodes, rings, loops;
     // pieces
     View pieces, sources, parents, edge_table, flags, flag_offsets, keys, values, other_keys, other_values, histogram, digit_offsets;
-    View components, component_start, records, fates, classes, class_offsets, demands, demand_offsets, shares;
+    View components, component_start, records, fates, cavities, ordered_cavities, classes, class_offsets, demands, demand_offsets, shares;
 };
 
 void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b);

@@ -104,6 +104,8 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
                                                                                     "of its box; give the sites with --sites-file"};
     if (s[STATUS_CROWDED] != 0)
         return engine::Error{engine::ErrorCode::Capacity, number(STATUS_CROWDED) + " sites lie too close together for the spread of the others; leave some out"};
+    if (s[STATUS_TOO_LONG] != 0)
+        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_TOO_LONG) + " edges or triangles of the model meet too many cells each; divide them, or use fewer sites"};
     if (s[STATUS_BAD_CELLS] != 0)
         return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CELLS) + " cells have too many faces or neighbors to be cut; spread the sites"};
     if (s[STATUS_BAD_CAP] != 0)

@@ -11,7 +11,7 @@ struct CutPush {
 
 struct FastPush {
     Int4 bins, box_low, box_high;
-    uint32_t slots;
+    uint32_t slots, turn_budget;
 };
 
 CutPush cutPush(const Event& e, uint32_t size_class) {
@@ -43,7 +43,8 @@ void recordCutting(const Event& e) {
     FastPush fast = {e.grid.bins,
                      {e.grid.box_low[0], e.grid.box_low[1], e.grid.box_low[2], 0},
                      {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},
-                     e.capacity.sites};
+                     e.capacity.sites,
+                     e.turn_budget};
     e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
     e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
     e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);

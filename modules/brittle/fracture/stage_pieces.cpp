@@ -84,8 +84,11 @@ void recordMassProperties(const Event& e) {
     r.commands().beginLabel("mass_properties");
     r.runGroups("mass_properties", r.groupsOf(COUNT_COMPONENTS), engine::NoPush{},
                 {r.counts(), b.component_start, b.values, b.pieces, b.sources, b.positions, b.records});
-    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), e.grid.step,
-          {r.counts(), b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
+    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), e.grid.step, {r.counts(), b.records, b.fates, b.cavities});
+    r.publish(COUNT_CAVITIES, e.capacity.components);
+    if (e.capacity.cavities)
+        r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), engine::NoPush{},
+                    {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates, b.ordered_cavities});
     r.commands().endLabel();
 }
 
@@ -97,7 +100,7 @@ void recordEmission(const Event& e) {
     r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles, {r.counts(), b.values, b.sources, b.components, b.fates, b.classes});
     r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
     r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
-          {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares});
+          {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares, b.cavities});
     r.scan(Length::counted(COUNT_COMPONENTS), b.demands, b.sums, b.demand_offsets,
            {{COUNT_FRAGMENTS, COUNT_EMITTED, NO_INDEX, NO_INDEX}, {c.fragments, c.emitted, 0, 0}}, true);
     r.commands().endLabel();
@@ -105,7 +108,7 @@ void recordEmission(const Event& e) {
     for (uint32_t first = 0; first < c.emitted; first += c.emit_window) recordEmitWindow(e, first);
     r.run("emit_objects", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
           {r.counts(), b.records, b.fates, b.demand_offsets, b.shares, e.scene.draw_commands, e.scene.bounds, e.scene.fragments,
-           e.scene.matrices, e.scene.objects});
+           e.scene.matrices, e.scene.objects, b.ordered_cavities});
     r.commands().endLabel();
 }
 
