@@ -112,14 +112,6 @@ private:
         upload.add(std::span(p.columns.occupied), b.columns);
     }
 
-    static void clear(engine::Commands& commands, const EventBuffers& b) {
-        for (const engine::BufferView& view :
-             {b.counts, b.args, b.placed, b.raw_sites, b.site_table, b.bin_counts, b.bin_cursors, b.pair_table, b.round_bounds, b.triangle_polygons,
-              b.triangle_cursors, b.point_table, b.edge_triple_counts, b.edge_triple_cursors, b.edge_sums, b.face_counts, b.face_cursors,
-              b.edge_table})
-            commands.fill(view, 0);
-    }
-
     static void recordAll(const Event& event) {
         recordSites(event);
         recordCells(event);
@@ -161,9 +153,9 @@ private:
         addSites(upload, p, sites, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();
-        clear(commands, b);
-        upload.copy(commands, *staging);
         Recorder recorder(commands, kernels_, b.counts, b.args);
+        recorder.clear({b.counts, b.args, b.placed, b.raw_sites});
+        upload.copy(commands, *staging);
         recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, turnBudget(device_)});
         if (auto ok = recorder.status(); !ok) return ok.error();
         auto start = Clock::now();

@@ -26,6 +26,9 @@ struct Capacities {
     bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, cavities = false;
 
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
+    // Slots of the hash tables: powers of two, at most half full.
+    uint32_t siteTable() const;
+    uint32_t pairTable() const;
     uint32_t pointTable() const;
     uint32_t edgeTable() const;
     // Makes room for what an attempt found out that it needs, from the words of counts and status it left. False: nothing

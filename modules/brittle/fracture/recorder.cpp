@@ -34,6 +34,10 @@ void Recorder::scan(Length length, engine::BufferView values, engine::BufferView
     }
 }
 
+void Recorder::clear(Views views) {
+    for (const engine::BufferView& view : views) commands_.fill(view, 0);
+}
+
 void Recorder::publish(uint32_t count, uint32_t capacity) {
     struct Push {
         uint32_t count, capacity;

@@ -18,6 +18,7 @@ void recordPlaces(const Event& e) {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
     };
     r.commands().beginLabel("place_vertices");
+    r.clear({b.point_table});
     PublishPush outer = {COUNT_ROUND, NO_INDEX, c.vertices, 0, {COUNT_CROSSINGS, NO_INDEX, NO_INDEX, NO_INDEX}, {1, 0, 0, 0}};
     r.runGroups("publish_sum", 1, outer, {r.counts(), r.args()});
     r.run("place_crossings", Length::counted(COUNT_ROUND), c.vertices,
@@ -46,6 +47,7 @@ void recordDepth(const Event& e) {
     const auto& b = e.b;
     Recorder& r = e.record;
     r.commands().beginLabel("classify_cells");
+    r.clear({b.edge_triple_counts, b.edge_triple_cursors, b.edge_sums});
     r.run("assign_triples", Length::counted(COUNT_TRIPLES), engine::NoPush{},
           {r.counts(), b.cell_offsets, b.corners, b.corner_info, b.triples, b.triple_signs, b.triple_edges, b.edge_triple_counts, b.edge_sums});
     r.scan(Length::counted(COUNT_VORONOI_EDGES), b.edge_triple_counts, b.sums, b.edge_triple_offsets, {});
@@ -118,6 +120,7 @@ void recordTriangulation(const Event& e) {
 
 void recordCaps(const Event& e) {
     e.record.commands().beginLabel("cap_faces");
+    e.record.clear({e.b.face_counts, e.b.face_cursors});
     recordSegments(e);
     recordTriangulation(e);
     e.record.commands().endLabel();

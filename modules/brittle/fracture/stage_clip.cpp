@@ -94,6 +94,7 @@ void recordPolygons(const Event& e) {
 
 void recordClassification(const Event& e) {
     e.record.commands().beginLabel("classify_triangles");
+    e.record.clear({e.b.pair_table, e.b.round_bounds, e.b.triangle_polygons, e.b.triangle_cursors});
     recordOwners(e);
     recordCrossings(e);
     recordMixedTriangles(e);

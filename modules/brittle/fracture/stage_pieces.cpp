@@ -65,6 +65,7 @@ void recordIslands(const Event& e) {
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.commands().beginLabel("split_islands");
+    r.clear({b.edge_table});
     recordPieces(e);
     uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
     r.run("unite_triangles", Length::counted(COUNT_TRIANGLES), mask, {r.counts(), b.pieces, b.parents, b.edge_table});

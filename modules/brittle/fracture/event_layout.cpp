@@ -1,0 +1,225 @@
+// Where the buffers of an event lie in the general buffer. What one stage alone needs shares its memory with what the other
+// stages need; stages clear their own tables when they begin.
+#include "modules/brittle/fracture/pools.h"
+
+#include <algorithm>
+
+namespace brittle {
+namespace {
+
+// Words a cell of the two larger exact kernels keeps in `raw`, and in its store.
+constexpr uint64_t kMediumRaw = 2 + 256 + 2 * 512, kLargeRaw = 2 + 2048 + 2 * 4096;
+constexpr uint64_t kMediumStore = 8 * 256 + 23 * 512, kLargeStore = 8 * 2048 + 23 * 4096;
+
+class Taker {
+public:
+    explicit Taker(engine::ScratchArena& arena) : arena_(arena) {}
+    engine::BufferView words(uint64_t count) { return arena_.take(4 * std::max<uint64_t>(count, 4)); }
+    engine::BufferView quads(uint64_t count) { return arena_.take(16 * std::max<uint64_t>(count, 1)); }
+
+private:
+    engine::ScratchArena& arena_;
+};
+
+struct Input {
+    const Capacities& c;
+    const Mesh& mesh;
+    const TriangleColumns& columns;
+    EventBuffers& b;
+};
+
+// What is read until the end: the mesh, sites, places, and what the surface is put together from.
+void takeKept(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    const Mesh& mesh = in.mesh;
+    EventBuffers& b = in.b;
+    uint64_t longest = std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins}, uint64_t{c.voronoi_edges}});
+    uint64_t points = c.points();
+    b.counts = take.words(STATUS_WORDS);
+    b.args = take.words(9ull * COUNT_TOTAL);
+    b.sums = take.quads(longest / SCAN_BLOCK + 2);
+    b.mesh_positions = take.words(3 * mesh.positions.size());
+    b.mesh_triangles = take.words(3 * mesh.triangles.size());
+    b.corner_attributes = take.words(15 * mesh.triangles.size());
+    b.sites = take.quads(c.sites);
+    b.positions = take.quads(points);
+    b.neighbors = take.words(c.neighbors);
+    b.face_cells = take.words(c.neighbors);
+    b.owners = take.words(c.vertices);
+    b.triangle_slot = take.words(c.triangles + 1ull);
+    b.polygons = take.quads(c.polygons);
+    b.polygon_offsets = take.quads(c.polygons + 1ull);
+    b.polygon_corners = take.words(c.sides);
+    b.welded = take.words(points);
+    b.faces = take.words(c.neighbors);
+    b.face_offsets = take.words(c.neighbors + 1ull);
+    b.loose_caps = take.quads(2ull * c.segments);
+    b.cap_offsets = take.words(c.neighbors + 1ull);
+}
+
+// The diagram, and where mesh and diagram cross: read until the caps are made.
+void takeDiagram(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    const Mesh& mesh = in.mesh;
+    EventBuffers& b = in.b;
+    uint64_t n = c.sites;
+    uint64_t points = c.points();
+    b.triangle_edges = take.words(3 * mesh.triangles.size());
+    b.mesh_edges = take.words(2ull * c.edges);
+    b.grid_vertices = take.quads(c.vertices);
+    b.bin_start = take.words(c.bins + 1ull);
+    b.bin_sites = take.quads(c.sites);
+    b.cell_offsets = take.quads(n + 1);
+    b.corners = take.quads(c.corners);
+    b.corner_info = take.words(2ull * c.corners);
+    b.vertex_sites = take.quads(c.voronoi_vertices);
+    b.edge_sites = take.quads(c.voronoi_edges);
+    b.edge_ends = take.words(2ull * c.voronoi_edges);
+    b.crossings = take.quads(c.crossings);
+    b.polygon_sides = take.words(c.sides);
+    b.triples = take.quads(c.triples);
+    b.triple_signs = take.words(c.triples);
+    b.points = take.words(6 * points);
+    b.edge_triple_offsets = take.words(c.voronoi_edges + 1ull);
+    b.ordered_triples = take.words(2ull * c.triples);
+    b.links = take.words(2ull * c.voronoi_vertices);
+    b.other_links = take.words(2ull * c.voronoi_vertices);
+}
+
+void takeSites(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    const TriangleColumns& columns = in.columns;
+    EventBuffers& b = in.b;
+    b.raw_sites = take.words(3ull * c.sites);
+    b.placed = take.words(c.sites);
+    b.column_start = take.words(columns.start.size());
+    b.column_triangles = take.words(columns.triangles.size());
+    b.columns = take.quads(columns.occupied.size());
+    b.site_table = take.words(c.siteTable());
+    b.site_slots = take.words(c.sites);
+    b.welded_sites = take.words(c.sites);
+    b.site_flags = take.words(c.sites);
+    b.site_offsets = take.words(c.sites + 1ull);
+    b.bin_counts = take.words(c.bins);
+    b.bin_cursors = take.words(c.bins);
+    b.loose_sites = take.words(c.sites);
+}
+
+void takeCells(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    uint64_t n = c.sites;
+    b.raw = take.words(n * RAW_WORDS + c.exact_medium * kMediumRaw + c.exact_large * kLargeRaw);
+    b.cell_raw = take.words(2 * n);
+    b.queue = take.words(n + c.exact_medium + c.exact_large);
+    b.store = take.words(std::max(c.exact_medium * kMediumStore, c.exact_large * kLargeStore));
+    b.cell_counts = take.quads(n);
+}
+
+void takeClipping(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    b.edge_flags = take.words(c.edges);
+    b.edge_slot = take.words(c.edges + 1ull);
+    b.mixed_edges = take.words(c.edges);
+    b.crossing_counts = take.words(c.edges);
+    b.crossing_offsets = take.words(c.edges + 1ull);
+    b.triangle_flags = take.words(c.triangles);
+    b.mixed_triangles = take.words(c.triangles);
+    b.pairs = take.words(2ull * c.pairs);
+    b.pair_table = take.words(2ull * c.pairTable());
+    b.pair_sides = take.words(static_cast<uint64_t>(c.pairs) * MAX_SIDES);
+    b.pair_shape = take.words(2ull * c.pairs);
+    b.round_bounds = take.words(4);
+    b.triangle_polygons = take.words(c.triangles);
+    b.triangle_polygon_offsets = take.words(c.triangles + 1ull);
+    b.triangle_cursors = take.words(c.triangles);
+    b.loose_polygons = take.words(c.polygons);
+    b.polygon_counts = take.quads(c.polygons);
+}
+
+void takePlaces(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    uint64_t points = c.points();
+    b.point_table = take.words(c.pointTable());
+    b.point_slots = take.words(points);
+}
+
+void takeDepth(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    b.triple_edges = take.words(c.triples);
+    b.edge_triple_counts = take.words(c.voronoi_edges);
+    b.edge_triple_cursors = take.words(c.voronoi_edges);
+    b.edge_sums = take.words(c.voronoi_edges);
+    b.loose_triples = take.words(c.triples);
+}
+
+void takeCaps(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    b.interval_counts = take.words(c.voronoi_edges);
+    b.interval_offsets = take.words(c.voronoi_edges + 1ull);
+    b.face_counts = take.words(c.neighbors);
+    b.face_cursors = take.words(c.neighbors);
+    b.segments = take.quads(c.segments);
+    b.face_flags = take.words(c.neighbors);
+    b.face_slots = take.words(c.neighbors + 1ull);
+    b.large_faces = take.words(c.neighbors);
+    b.huge_faces = take.words(c.neighbors);
+    b.cap_counts = take.words(c.neighbors);
+    b.nodes = take.quads(2ull * c.segments);
+    b.rings = take.quads(2ull * c.segments);
+    b.loops = take.quads(2ull * c.segments);
+}
+
+// Triangles, islands and fragments: nothing of the diagram is read any more.
+void takePieces(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    uint64_t n = c.pieces;
+    uint64_t tiles = n / RADIX_TILE + 1;
+    b.pieces = take.quads(n);
+    b.sources = take.words(n);
+    b.parents = take.words(n);
+    b.edge_table = take.words(c.edgeTable());
+    b.flags = take.quads(n);
+    b.flag_offsets = take.quads(n + 1);
+    b.keys = take.words(n);
+    b.values = take.words(n);
+    b.other_keys = take.words(n);
+    b.other_values = take.words(n);
+    b.histogram = take.words(tiles << RADIX_BITS);
+    b.digit_offsets = take.words((tiles << RADIX_BITS) + 1);
+    b.components = take.words(n);
+    b.component_start = take.words(c.components + 1ull);
+    b.records = take.words(24ull * c.components);
+    b.fates = take.words(2ull * c.components);
+    b.cavities = take.words(c.components);
+    b.ordered_cavities = take.words(c.components);
+    b.classes = take.quads(n);
+    b.class_offsets = take.quads(n + 1);
+    b.demands = take.quads(c.components);
+    b.demand_offsets = take.quads(c.components + 1ull);
+    b.shares = take.quads(c.components);
+}
+
+} // namespace
+
+void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b) {
+    const Input in = {c, mesh, columns, b};
+    Taker take(arena);
+    takeKept(in, take);
+    const engine::ScratchArena::Mark until_caps = arena.mark();
+    takeDiagram(in, take);
+    const engine::ScratchArena::Mark one_stage = arena.mark();
+    for (const auto stage : {takeSites, takeCells, takeClipping, takePlaces, takeDepth, takeCaps}) {
+        stage(in, take);
+        arena.release(one_stage);
+    }
+    arena.release(until_caps);
+    takePieces(in, take);
+}
+
+} // namespace brittle
