@@ -1,4 +1,5 @@
-// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists.
+// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists. Behind a flap that was dropped
+// lies what its other side faced.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -10,6 +11,7 @@ READS(2, uint, sources);
 READS(3, uint, components);
 READS(4, uvec2, fates);
 WRITES(5, uvec4, classes);
+READS(6, uint, parents);
 layout(push_constant) uniform Push { uint triangle_count; };
 
 void main() {
@@ -17,7 +19,9 @@ void main() {
     if (k >= counts[COUNT_VALID] || counts[STATUS_FAILED] != 0u) return;
     uint t = order[k], caps = triangle_count + counts[COUNT_FAN_TRIANGLES];
     bool cap = (sources[t] & INNER_BIT) != 0u;
-    uint mate = components[cap ? caps + ((t - caps) ^ 1u) : t];
+    uint behind = cap ? caps + ((t - caps) ^ 1u) : t;
+    for (uint flaps = 0u; flaps < 64u && (sources[behind] & FLAP_BIT) != 0u; flaps++) behind = caps + ((parents[behind] - caps) ^ 1u);
+    uint mate = components[behind];
     bool faced = mate != NO_INDEX && fates[mate].x != FATE_DISSOLVED;
     bool stays = fates[components[t]].x != FATE_DISSOLVED;
     classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced ? 1u : 0u, 0u, 0u);

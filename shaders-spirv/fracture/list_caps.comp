@@ -1,10 +1,11 @@
-// Both sides of every cap: the lower cell's, and its mirror image for the other, always in a row.
+// Both sides of every cap: the lower cell's, and its mirror image for the other, always in a row. Lists those that may be
+// one side of a flap: only corners that fell together can make two caps of a cell coincide.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, uint, faces);
 READS(2, uint, neighbors);
 READS(3, uint, face_cells);
@@ -14,6 +15,8 @@ READS(6, uvec4, loose_caps);
 WRITES(7, uvec4, pieces);
 WRITES(8, uint, sources);
 WRITES(9, uint, parents);
+READS(10, uint, shared_points);
+WRITES(11, uint, suspects);
 layout(push_constant) uniform Push { uint triangle_count; };
 
 void main() {
@@ -32,6 +35,8 @@ void main() {
             sources[to + 1u] = INNER_BIT | f;
             parents[to] = to;
             parents[to + 1u] = to + 1u;
+            bool suspect = !flat_ && (shared_points[cap.x] | shared_points[cap.y] | shared_points[cap.z]) != 0u;
+            if (suspect) suspects[atomicAdd(counts[COUNT_SUSPECTS], 1u)] = to;
             to += 2u;
             left--;
         }

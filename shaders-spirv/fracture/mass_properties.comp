@@ -33,8 +33,8 @@ void main() {
         uint t = order[k];
         uvec4 piece = pieces[t];
         precise vec3 a = positions[piece.x].xyz - origin, b = positions[piece.y].xyz - origin, d = positions[piece.z].xyz - origin;
-        precise float volume = dot(a, cross(b, d)) / 6.0;
-        precise float area = 0.5 * length(cross(b - a, d - a));
+        precise vec3 normal = cross(b - a, d - a); // of short edges: little to round
+        precise float volume = dot(a, normal) / 6.0, area = 0.5 * length(normal);
         float outer_area = (sources[t] & INNER_BIT) == 0u ? area : 0.0, perimeter = length(b - a) + length(d - b) + length(a - d);
         addTo(sum, lost_sum, vec4(volume, area, outer_area, perimeter));
         addTo(moment, lost_moment, vec4(0.25 * volume * (a + b + d), 0.0));

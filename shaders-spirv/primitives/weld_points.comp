@@ -1,11 +1,13 @@
-// Finds points that coincide, word for word. A slot of the table belongs to one position and ends up holding the lowest id
+// Finds points that coincide, word for word (-0.0 is 0.0): as coordinates of the output, so that no two vertices of a fragment
+// are at one place. A slot of the table belongs to one position and ends up holding the lowest id
 // there, whoever came first: which slot that is depends on the run, the classes and their lowest ids do not.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 
-#ifndef WORDS
-#define WORDS 6
+#define WORDS 3
+#ifndef STRIDE
+#define STRIDE 4
 #endif
 FLAT_KERNEL;
 UPDATES(0, uint, counts);
@@ -18,9 +20,14 @@ layout(push_constant) uniform Push {
     uint table_mask;
 };
 
+uint wordOf(uint id, uint k) {
+    uint word = points[STRIDE * id + k];
+    return word == 0x80000000u ? 0u : word;
+}
+
 bool same(uint a, uint b) {
     bool equal = true;
-    for (uint k = 0u; k < ROLLED(WORDS); k++) equal = equal && points[WORDS * a + k] == points[WORDS * b + k];
+    for (uint k = 0u; k < ROLLED(WORDS); k++) equal = equal && wordOf(a, k) == wordOf(b, k);
     return equal;
 }
 
@@ -30,7 +37,7 @@ void main() {
     if (id >= n || counts[STATUS_FAILED] != 0u) return;
     uint hash = 0x811c9dc5u;
     for (uint k = 0u; k < ROLLED(WORDS); k++) {
-        hash = (hash ^ points[WORDS * id + k]) * 0x01000193u;
+        hash = (hash ^ wordOf(id, k)) * 0x01000193u;
         hash ^= hash >> 15;
     }
     hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;

@@ -45,7 +45,9 @@
 #define COUNT_EMITTED 30         /* triangles of all fragments */
 #define COUNT_DRAWS 31
 #define COUNT_CAVITIES 32
-#define COUNT_TOTAL 33
+#define COUNT_SUSPECTS 33         /* caps that may be one side of a flap */
+#define COUNT_SUSPECT_SIDES 34
+#define COUNT_TOTAL 35
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL
@@ -95,6 +97,7 @@
 #define HUGE_FACE 2048
 #define POINT_FRACTION_BITS 24
 #define INNER_BIT 0x80000000u /* of a triangle's source: a cap, not a mesh triangle */
+#define FLAP_BIT 0x40000000u  /* dropped as one side of a flap */
 
 #define FATE_FRAGMENT 0u
 #define FATE_DISSOLVED 1u

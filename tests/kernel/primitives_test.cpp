@@ -33,45 +33,54 @@ struct WeldPush {
     uint32_t length, length_count, table_mask;
 };
 
-using SixWords = std::array<uint32_t, 6>;
+constexpr uint32_t kMinusZero = 0x80000000;
+using Place = std::array<uint32_t, 4>; // the last word is none of it
 
-// Points of six words of which many coincide, and some differ in one word only.
-std::vector<SixWords> crowdedPoints(uint32_t count) {
+// Points of which many coincide, some differ in one word only, and some in the sign of a zero.
+std::vector<Place> crowdedPoints(uint32_t count) {
     std::mt19937 random(count);
-    std::vector<SixWords> points(count);
-    for (SixWords& p : points) {
-        p = {7, 7, 7, 7, 7, 7};
-        p[random() % 6] = static_cast<uint32_t>(random() % (1 + count / 12));
+    std::vector<Place> points(count);
+    for (Place& p : points) {
+        p = {7, 7, 7, static_cast<uint32_t>(random())};
+        p[random() % 3] = static_cast<uint32_t>(random() % (1 + count / 6));
     }
     return points;
 }
 
 TEST(SmallWeldPoints, GivesEveryPointTheLowestIdAtItsPlace) {
     for (const uint32_t n : {1u, 63u, 64u, 65u, 1234u, 50'000u}) {
-        const std::vector<SixWords> points = crowdedPoints(n);
-        std::map<SixWords, uint32_t> lowest;
-        std::vector<uint32_t> expected;
-        for (uint32_t k = 0; k < n; ++k)
-            expected.push_back(lowest.try_emplace(points[k], k).first->second);
+        std::vector<Place> points = crowdedPoints(n);
+        std::map<std::array<uint32_t, 3>, uint32_t> lowest;
+        std::vector<uint32_t> expected, expected_shared(n, 0);
+        for (uint32_t k = 0; k < n; ++k) {
+            expected.push_back(lowest.try_emplace({points[k][0], points[k][1], points[k][2]}, k).first->second);
+            if (expected[k] != k) expected_shared[expected[k]] = 1;
+        }
+        std::mt19937 random(n);
+        for (Place& p : points)
+            for (uint32_t& word : p)
+                if (word == 0 && random() % 2 == 0) word = kMinusZero;
         uint32_t slots = 64;
         while (slots < 2 * n)
             slots *= 2;
         Counts counts;
         const engine::Buffer in = bufferOf(points), table = bufferOf(std::vector<uint32_t>(slots));
         const engine::Buffer at = blankBuffer<uint32_t>(n), welded = blankBuffer<uint32_t>(n);
+        const engine::Buffer shared = bufferOf(std::vector<uint32_t>(n));
         onDevice([&](engine::Commands& commands) {
             commands.dispatch(kernel("weld_points"), n, WeldPush{n, NO_INDEX, slots - 1}, {counts.words, in, table, at});
-            commands.dispatch(kernel("resolve_points"), n, LengthPush{n, NO_INDEX}, {counts.words, table, at, welded});
+            commands.dispatch(kernel("resolve_points"), n, LengthPush{n, NO_INDEX}, {counts.words, table, at, welded, shared});
         });
         EXPECT_EQ(valuesOf<uint32_t>(welded, n), expected) << n;
+        EXPECT_EQ(valuesOf<uint32_t>(shared, n), expected_shared) << n;
         EXPECT_EQ(counts[STATUS_BAD_WELD], 0u);
     }
 }
 
 TEST(SmallWeldPoints, ReportsATableThatIsFull) {
-    std::vector<SixWords> points;
+    std::vector<Place> points;
     for (uint32_t k = 0; k < 200; ++k)
-        points.push_back({k, 0, 0, 0, 0, 0});
+        points.push_back({k, 0, 0, 0});
     Counts counts;
     const engine::Buffer in = bufferOf(points), table = bufferOf(std::vector<uint32_t>(128)), at = blankBuffer<uint32_t>(200);
     onDevice([&](engine::Commands& commands) {

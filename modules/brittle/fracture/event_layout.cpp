@@ -51,6 +51,7 @@ void takeKept(const Input& in, Taker& take) {
     b.polygon_offsets = take.quads(c.polygons + 1ull);
     b.polygon_corners = take.words(c.sides);
     b.welded = take.words(points);
+    b.shared_points = take.words(points);
     b.faces = take.words(c.neighbors);
     b.face_offsets = take.words(c.neighbors + 1ull);
     b.loose_caps = take.quads(2ull * c.segments);
@@ -183,6 +184,9 @@ void takePieces(const Input& in, Taker& take) {
     b.pieces = take.quads(n);
     b.sources = take.words(n);
     b.parents = take.words(n);
+    b.suspects = take.words(c.caps);
+    b.flap_table = take.words(4ull * c.flapTable());
+    b.flap_slots = take.words(c.flaps ? 2ull * c.caps : 1);
     b.edge_table = take.words(c.edgeTable());
     b.flags = take.quads(n);
     b.flag_offsets = take.quads(n + 1);

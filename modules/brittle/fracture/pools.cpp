@@ -45,6 +45,7 @@ Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const Eve
 uint32_t Capacities::siteTable() const { return tableSize(sites); }
 uint32_t Capacities::pairTable() const { return tableSize(pairs); }
 uint32_t Capacities::pointTable() const { return tableSize(points()); }
+uint32_t Capacities::flapTable() const { return flaps ? tableSize(uint64_t{2} * caps) : 1; }
 uint32_t Capacities::edgeTable() const { return tableSize(uint64_t{3} * pieces / 2); }
 
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count) {
@@ -99,6 +100,7 @@ bool Capacities::grow(const uint32_t* status) {
     more |= takeUp(medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
     more |= takeUp(large_cells, status[COUNT_EXACT_MEDIUM] != 0); // who needs the one often needs the other
     more |= takeUp(huge_faces, status[COUNT_HUGE_FACES] != 0);
+    more |= takeUp(flaps, status[COUNT_SUSPECTS] != 0);
     more |= takeUp(cavities, status[COUNT_CAVITIES] != 0);
     if (status[STATUS_ROUNDS_LEFT] != 0) {
         clip_rounds = clip_rounds * 2 + 8;

@@ -23,13 +23,14 @@ struct Capacities {
     uint32_t clip_rounds = 0;
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
-    bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, cavities = false;
+    bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, cavities = false;
 
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
     // Slots of the hash tables: powers of two, at most half full.
     uint32_t siteTable() const;
     uint32_t pairTable() const;
     uint32_t pointTable() const;
+    uint32_t flapTable() const;
     uint32_t edgeTable() const;
     // Makes room for what an attempt found out that it needs, from the words of counts and status it left. False: nothing
     // is amiss that more room would cure.
@@ -56,13 +57,13 @@ struct EventBuffers {
     View triangle_polygons, triangle_polygon_offsets, triangle_cursors, loose_polygons, polygons, polygon_counts, polygon_offsets;
     View polygon_sides, polygon_corners, triples, triple_signs;
     // places
-    View points, positions, point_table, point_slots, welded;
+    View points, positions, point_table, point_slots, welded, shared_points;
     // depth and caps
     View triple_edges, edge_triple_counts, edge_triple_offsets, edge_triple_cursors, edge_sums, loose_triples, ordered_triples;
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
     View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_counts, cap_offsets, nodes, rings, loops;
     // pieces
-    View pieces, sources, parents, edge_table, flags, flag_offsets, keys, values, other_keys, other_values, histogram, digit_offsets;
+    View pieces, sources, parents, suspects, flap_table, flap_slots, edge_table, flags, flag_offsets, keys, values, other_keys, other_values, histogram, digit_offsets;
     View components, component_start, records, fates, cavities, ordered_cavities, classes, class_offsets, demands, demand_offsets, shares;
 };
 

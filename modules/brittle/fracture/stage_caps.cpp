@@ -18,7 +18,7 @@ void recordPlaces(const Event& e) {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
     };
     r.commands().beginLabel("place_vertices");
-    r.clear({b.point_table});
+    r.clear({b.point_table, b.shared_points});
     PublishPush outer = {COUNT_ROUND, NO_INDEX, c.vertices, 0, {COUNT_CROSSINGS, NO_INDEX, NO_INDEX, NO_INDEX}, {1, 0, 0, 0}};
     r.runGroups("publish_sum", 1, outer, {r.counts(), r.args()});
     r.run("place_crossings", Length::counted(COUNT_ROUND), c.vertices,
@@ -35,11 +35,11 @@ void recordPlaces(const Event& e) {
     struct WeldPush {
         uint32_t length, length_count, table_mask;
     } weld = {0, COUNT_POINTS, static_cast<uint32_t>(b.point_table.size / 4) - 1};
-    r.run("weld_points", Length::counted(COUNT_POINTS), weld, {r.counts(), b.points, b.point_table, b.point_slots});
+    r.run("weld_points", Length::counted(COUNT_POINTS), weld, {r.counts(), b.positions, b.point_table, b.point_slots});
     struct ResolvePush {
         uint32_t length, length_count;
     } resolve = {0, COUNT_POINTS};
-    r.run("resolve_points", Length::counted(COUNT_POINTS), resolve, {r.counts(), b.point_table, b.point_slots, b.welded});
+    r.run("resolve_points", Length::counted(COUNT_POINTS), resolve, {r.counts(), b.point_table, b.point_slots, b.welded, b.shared_points});
     r.commands().endLabel();
 }
 

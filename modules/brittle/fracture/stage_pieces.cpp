@@ -16,11 +16,27 @@ void recordPieces(const Event& e) {
     r.run("list_fans", Length::counted(COUNT_POLYGONS), c.triangles,
           {r.counts(), b.polygons, b.polygon_offsets, b.polygon_corners, b.welded, b.pieces, b.sources, b.parents});
     r.run("list_caps", Length::counted(COUNT_FACES), c.triangles,
-          {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources, b.parents});
+          {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources, b.parents,
+           b.shared_points, b.suspects});
     struct SumPush {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
     } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX}, {1, 2, 0, 0}};
     r.runGroups("publish_sum", 1, total, {r.counts(), r.args()});
+}
+
+void recordFlaps(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    Recorder& r = e.record;
+    r.clear({b.flap_table});
+    struct SumPush {
+        uint32_t count, capacity, constant, pad, terms[4], weights[4];
+    } sides = {COUNT_SUSPECT_SIDES, 2 * c.caps, 0, 0, {COUNT_SUSPECTS, NO_INDEX, NO_INDEX, NO_INDEX}, {2, 0, 0, 0}};
+    r.runGroups("publish_sum", 1, sides, {r.counts(), r.args()});
+    r.run("find_flaps", Length::counted(COUNT_SUSPECT_SIDES), c.flapTable() - 1,
+          {r.counts(), b.suspects, b.pieces, b.flap_table, b.flap_slots});
+    r.run("drop_flaps", Length::counted(COUNT_SUSPECT_SIDES), engine::NoPush{},
+          {r.counts(), b.suspects, b.flap_table, b.flap_slots, b.pieces, b.sources, b.parents});
 }
 
 // Stable, by component; the number of passes follows from the most components that the pool admits.
@@ -67,6 +83,7 @@ void recordIslands(const Event& e) {
     r.commands().beginLabel("split_islands");
     r.clear({b.edge_table});
     recordPieces(e);
+    if (c.flaps) recordFlaps(e);
     uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
     r.run("unite_triangles", Length::counted(COUNT_TRIANGLES), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
     r.run("flag_components", Length::counted(COUNT_TRIANGLES), engine::NoPush{}, {r.counts(), b.pieces, b.parents, b.flags});
@@ -98,7 +115,7 @@ void recordEmission(const Event& e) {
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.commands().beginLabel("allocate");
-    r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles, {r.counts(), b.values, b.sources, b.components, b.fates, b.classes});
+    r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles, {r.counts(), b.values, b.sources, b.components, b.fates, b.classes, b.parents});
     r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
     r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
           {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares, b.cavities});

@@ -37,7 +37,7 @@ void recordSiteWelding(const Event& e) {
     struct ResolvePush {
         uint32_t length, length_count;
     } resolve = {n, NO_INDEX};
-    e.record.run("resolve_points", Length::of(n), resolve, {e.record.counts(), e.b.site_table, e.b.site_slots, e.b.welded_sites});
+    e.record.run("resolve_points", Length::of(n), resolve, {e.record.counts(), e.b.site_table, e.b.site_slots, e.b.welded_sites, e.b.site_flags});
     e.record.run("flag_sites", Length::of(n), n, {e.record.counts(), e.b.welded_sites, e.b.placed, e.b.site_flags});
     e.record.scan(Length::of(n), e.b.site_flags, e.b.sums, e.b.site_offsets, {{COUNT_SITES, NO_INDEX, NO_INDEX, NO_INDEX}, {n, 0, 0, 0}});
 }
