@@ -7,6 +7,9 @@
 #include "lib/corner_values.glsl"
 #include "lib/triangle_predicate.glsl"
 
+#ifndef MAX_SIDES
+#define MAX_SIDES USUAL_SIDES
+#endif
 FLAT_KERNEL;
 UPDATES(0, uint, counts);
 READS(1, ivec4, sites);
@@ -59,7 +62,7 @@ void main() {
     uint m = pair.x, i = pair.y, t = mixed_triangles[m];
     for (uint c = 0u; c < 3u; c++) corner[c] = grid_vertices[triangles[3u * t + c]].xyz;
     ivec3 qi = sites[i].xyz;
-    uint n = 3u, flat_with = NO_INDEX;
+    uint n = 3u, most = 3u, flat_with = NO_INDEX;
     bool broken = false;
     for (uint k = 0u; k < 3u; k++) side[k] = EDGE_BASE + k;
 
@@ -75,34 +78,35 @@ void main() {
             found = !nearerTo(l.v[0], i, l.id) || !nearerTo(l.v[1], i, l.id) || !nearerTo(l.v[2], i, l.id);
             if (isZero(l.v[0]) && isZero(l.v[1]) && isZero(l.v[2])) flat_with = l.id;
         }
-        uint gone = 0u, count = found ? n : 0u;
-        budget -= min(budget, 3u * count + 4u);
-        Row before = l;
+        // Corner k lies between sides k and k + 1. The corners cut away are one run; l takes the place of the sides between
+        // its ends.
+        uint count = found ? n : 0u, kept = 0u, exits = 0u;
+        budget -= min(budget, 2u * count + 4u);
+        Row before = rowOf(i, qi, side[count > 0u ? n - 1u : 0u]);
+        bool start_gone = false, last_gone = false;
         for (uint k = 0u; k <= count && count > 0u; k++) {
             Row here = rowOf(i, qi, side[k < count ? k : 0u]);
-            bool cut = k > 0u && triangleSign(i, before, here, l) < 0;
-            gone |= cut ? 1u << ((k - 1u) & 31u) : 0u;
-            before = here;
-        }
-        // The corners cut away are one run; l takes the place of the sides between its ends.
-        uint kept = 0u, exits = 0u;
-        for (uint k = 0u; k < count; k++) {
-            bool start_gone = ((gone >> (k == 0u ? n - 1u : k - 1u)) & 1u) != 0u, end_gone = ((gone >> k) & 1u) != 0u;
-            if (!(start_gone && end_gone)) fresh[kept++] = side[k];
-            if (!start_gone && end_gone) {
+            bool end_gone = k < count ? triangleSign(i, before, here, l) < 0 : last_gone;
+            last_gone = k == 0u ? end_gone : last_gone;
+            if (k > 0u && !(start_gone && end_gone)) fresh[kept++] = side[k - 1u];
+            if (k > 0u && !start_gone && end_gone) {
                 fresh[kept++] = l.id;
                 exits++;
             }
+            start_gone = end_gone;
+            before = here;
         }
-        broken = broken || exits > 1u || kept > MAX_SIDES;
+        broken = broken || exits > 1u;
+        most = max(most, kept);
         kept = min(kept, uint(MAX_SIDES));
         n = found ? kept : n;
         for (uint k = 0u; k < kept; k++) side[k] = fresh[k];
     }
 
     if (flat_with != NO_INDEX && solidSide(qi, sites[flat_with].xyz) <= 0) flat_with = NO_INDEX;
-    if (broken || budget == 0u) {
-        atomicAdd(counts[broken ? STATUS_BAD_CLIP : STATUS_TOO_LONG], 1u);
+    if (most > MAX_SIDES) atomicMax(counts[STATUS_SIDES], most);
+    if (broken || budget == 0u || most > MAX_SIDES) {
+        atomicAdd(counts[broken ? STATUS_BAD_CLIP : STATUS_TOO_LONG], budget == 0u || broken ? 1u : 0u);
         atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
     }
     pair_shape[p] = uvec2(n, flat_with);

@@ -12,6 +12,7 @@ READS(3, uint, pair_sides);
 WRITES(4, uint, sides);
 WRITES(5, uvec4, triples);    // triangle, three sites in order
 WRITES(6, int, triple_signs);
+layout(push_constant) uniform Push { uint side_stride; };
 
 void main() {
     uint q = flatIndex();
@@ -19,8 +20,8 @@ void main() {
     uvec4 polygon = polygons[q], at = polygon_offsets[q];
     uint n = polygon_offsets[q + 1u].x - at.x;
     for (uint k = 0u; k < n; k++) {
-        uint x = pair_sides[polygon.w * MAX_SIDES + k];
-        uint y = pair_sides[polygon.w * MAX_SIDES + (k + 1u < n ? k + 1u : 0u)];
+        uint x = pair_sides[polygon.w * side_stride + k];
+        uint y = pair_sides[polygon.w * side_stride + (k + 1u < n ? k + 1u : 0u)];
         sides[at.x + k] = x;
         if (x < EDGE_BASE && y < EDGE_BASE && x > polygon.y && y > polygon.y) {
             triples[at.y] = uvec4(polygon.x, polygon.y, min(x, y), max(x, y));

@@ -14,6 +14,7 @@ READS(5, uint, loose_polygons);
 READS(6, uint, mixed_triangles);
 WRITES(7, uvec4, polygons); // triangle, cell, flat with, pair
 WRITES(8, uvec4, polygon_counts);
+layout(push_constant) uniform Push { uint side_stride; };
 
 void main() {
     uint at = flatIndex();
@@ -28,9 +29,9 @@ void main() {
     }
     for (uint k = polygon_offsets[pair.x]; k < last; k++) rank += pairs[loose_polygons[k]].y < pair.y ? 1u : 0u;
     uvec4 sum = uvec4(shape.x, 0u, shape.y != NO_INDEX ? shape.x : 0u, shape.x - 2u);
-    uint side = pair_sides[p * MAX_SIDES + shape.x - 1u];
+    uint side = pair_sides[p * side_stride + shape.x - 1u];
     for (uint k = 0u; k < shape.x; k++) {
-        uint next = pair_sides[p * MAX_SIDES + k];
+        uint next = pair_sides[p * side_stride + k];
         bool cut = next < EDGE_BASE && next > pair.y;
         sum.z += cut ? 1u : 0u;
         sum.y += cut && side < EDGE_BASE && side > pair.y ? 1u : 0u;

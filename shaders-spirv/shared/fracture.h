@@ -68,6 +68,7 @@
 #define STATUS_BAD_WELD (2 * COUNT_TOTAL + 15)
 #define STATUS_CROWDED (2 * COUNT_TOTAL + 16)  /* sites in the fullest bin, where there are too many to be ordered */
 #define STATUS_TOO_LONG (2 * COUNT_TOTAL + 17) /* edges and triangles that meet more cells than one lane can walk */
+#define STATUS_SIDES (2 * COUNT_TOTAL + 18) /* of the polygon that had too many */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u
@@ -89,7 +90,9 @@
 #define MOST_TURNS 50000u
 #define MOST_CELLS_OF_AN_EDGE 8000u
 
-#define MAX_SIDES 24
+// Sides of a clipped polygon; one that outgrows the usual number has the event done again with the larger.
+#define USUAL_SIDES 24
+#define MOST_SIDES 1024
 
 // Segments of a cap: up to these a face is one lane's, a small workgroup's, a large one's.
 #define SMALL_FACE 24

@@ -16,6 +16,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -234,6 +235,15 @@ TEST(FractureLimits, ACellWithThreeHundredFaces) {
 TEST(FractureLimits, ACellWithTwoThousandFaces) {
     const Model cube = modelFrom("builtin:cube");
     expectContract(cube, sitesOver(hard::sphereAroundCenter(2000, .3), cube));
+}
+
+// Many faces of one cell meet in one triangle, whose polygon there has as many sides.
+TEST(FractureLimits, APolygonOfManySides) {
+    const Model cube = modelFrom("builtin:cube");
+    FractureOptions options;
+    options.given_sites = {{0, 0, 0}};
+    for (int k = 0; k < 200; ++k) options.given_sites.push_back({0.3 * std::cos(0.0314159 * k), 0.3 * std::sin(0.0314159 * k), 0});
+    expectContract(cube, options);
 }
 
 TEST(FractureLimits, TwentyThousandCellsInACube) {

@@ -129,7 +129,7 @@ void takeClipping(const Input& in, Taker& take) {
     b.mixed_triangles = take.words(c.triangles);
     b.pairs = take.words(2ull * c.pairs);
     b.pair_table = take.words(2ull * c.pairTable());
-    b.pair_sides = take.words(static_cast<uint64_t>(c.pairs) * MAX_SIDES);
+    b.pair_sides = take.words(uint64_t{c.pairs} * c.sides_per_polygon);
     b.pair_shape = take.words(2ull * c.pairs);
     b.round_bounds = take.words(4);
     b.triangle_polygons = take.words(c.triangles);

@@ -102,6 +102,10 @@ bool Capacities::grow(const uint32_t* status) {
     more |= takeUp(huge_faces, status[COUNT_HUGE_FACES] != 0);
     more |= takeUp(flaps, status[COUNT_SUSPECTS] != 0);
     more |= takeUp(cavities, status[COUNT_CAVITIES] != 0);
+    if (status[STATUS_SIDES] > sides_per_polygon && sides_per_polygon < MOST_SIDES) {
+        sides_per_polygon = MOST_SIDES;
+        more = true;
+    }
     if (status[STATUS_ROUNDS_LEFT] != 0) {
         clip_rounds = clip_rounds * 2 + 8;
         more = true;

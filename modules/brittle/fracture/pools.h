@@ -21,6 +21,7 @@ struct Capacities {
     uint32_t intervals = 0, segments = 0, caps = 0, pieces = 0, components = 0, fragments = 0, emitted = 0;
     uint32_t exact_medium = 0, exact_large = 0;
     uint32_t clip_rounds = 0;
+    uint32_t sides_per_polygon = USUAL_SIDES;
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, cavities = false;

@@ -111,6 +111,9 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
     if (s[STATUS_BAD_CAP] != 0)
         return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CAP) + " cut faces have more than " + std::to_string(HUGE_FACE) +
                                                               " edges or too many loops; use more sites or a coarser mesh"};
+    if (s[STATUS_SIDES] > MOST_SIDES)
+        return engine::Error{engine::ErrorCode::Capacity, "a triangle has " + number(STATUS_SIDES) + " sides in one cell, at most " + std::to_string(MOST_SIDES) +
+                                                              " can be held; spread the sites"};
     if (s[STATUS_BAD_CLIP] != 0) return failed(number(STATUS_BAD_CLIP) + " triangles could not be clipped");
     if (s[STATUS_BAD_LOOKUP] != 0) return failed(number(STATUS_BAD_LOOKUP) + " look-ups in the diagram failed");
     if (s[STATUS_BAD_DEPTH] != 0)

@@ -13,11 +13,6 @@ void recordOwners(const Event& e) {
         Int4 bins, low;
         uint32_t length;
     } push = {g.bins, {g.box_low[0], g.box_low[1], g.box_low[2], 0}, e.capacity.vertices};
-    struct Bytes {
-        int32_t bins[4], low[4];
-        uint32_t length;
-    };
-    static_assert(sizeof(Push) == 36 && sizeof(Bytes) == 36);
     e.record.run("own_vertices", Length::of(e.capacity.vertices), push,
                  {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.owners});
 }
@@ -55,6 +50,7 @@ struct PairPush {
 
 void recordPairs(const Event& e) {
     const auto& b = e.b;
+    const bool wide = e.capacity.sides_per_polygon > USUAL_SIDES;
     PairPush push = {e.capacity.pairs, static_cast<uint32_t>(b.pair_table.size / 8) - 1};
     e.record.run("seed_pairs", Length::counted(COUNT_MIXED_TRIANGLES), push,
                  {e.record.counts(), b.mixed_triangles, b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot, b.crossing_offsets,
@@ -65,7 +61,7 @@ void recordPairs(const Event& e) {
         } next = {e.capacity.pairs, round == e.capacity.clip_rounds ? 1u : 0u};
         e.record.runGroups("next_round", 1, next, {e.record.counts(), e.record.args(), b.round_bounds});
         if (next.is_last != 0) break;
-        e.record.run("clip_triangles", Length::counted(COUNT_ROUND), push,
+        e.record.run(wide ? "clip_triangles_wide" : "clip_triangles", Length::counted(COUNT_ROUND), push,
                      {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_triangles, b.mixed_triangles,
                       b.round_bounds, b.pairs, b.pair_table, b.pair_sides, b.pair_shape, b.triangle_polygons});
     }
@@ -78,12 +74,12 @@ void recordPolygons(const Event& e) {
                   {{COUNT_POLYGONS, NO_INDEX, NO_INDEX, NO_INDEX}, {c.polygons, 0, 0, 0}});
     e.record.run("place_polygons", Length::counted(COUNT_PAIRS), engine::NoPush{},
                  {e.record.counts(), b.pairs, b.pair_shape, b.triangle_polygon_offsets, b.triangle_cursors, b.loose_polygons});
-    e.record.run("order_polygons", Length::counted(COUNT_POLYGONS), engine::NoPush{},
+    e.record.run("order_polygons", Length::counted(COUNT_POLYGONS), c.sides_per_polygon,
                  {e.record.counts(), b.pairs, b.pair_shape, b.pair_sides, b.triangle_polygon_offsets, b.loose_polygons, b.mixed_triangles,
                   b.polygons, b.polygon_counts});
     e.record.scan(Length::counted(COUNT_POLYGONS), b.polygon_counts, b.sums, b.polygon_offsets,
                   {{COUNT_SIDES, COUNT_TRIPLES, NO_INDEX, COUNT_FAN_TRIANGLES}, {c.sides, c.triples, NO_INDEX, c.fans}}, true);
-    e.record.run("list_triples", Length::counted(COUNT_POLYGONS), engine::NoPush{},
+    e.record.run("list_triples", Length::counted(COUNT_POLYGONS), c.sides_per_polygon,
                  {e.record.counts(), b.polygons, b.polygon_offsets, b.pair_sides, b.polygon_sides, b.triples, b.triple_signs});
     e.record.run("number_corners", Length::counted(COUNT_POLYGONS), c.vertices,
                  {e.record.counts(), b.polygons, b.polygon_offsets, b.polygon_sides, b.mesh_triangles, b.triangle_edges, b.edge_slot,
