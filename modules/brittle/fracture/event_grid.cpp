@@ -166,7 +166,7 @@ struct Raster {
         }
         for (int32_t y = (low[1] - grid.mesh_low[1]) / edge; y <= (high[1] - grid.mesh_low[1]) / edge; y++)
             for (int32_t x = (low[0] - grid.mesh_low[0]) / edge; x <= (high[0] - grid.mesh_low[0]) / edge; x++)
-                visit(static_cast<size_t>(y * nx + x), low[2], high[2]);
+                visit(static_cast<size_t>(y) * static_cast<size_t>(nx) + static_cast<size_t>(x), low[2], high[2]);
     }
     uint64_t entries() const {
         uint64_t total = 0;
