@@ -1,0 +1,170 @@
+// seed_pairs, clip_triangles, place_polygons, order_polygons and list_triples: the polygons of a triangle tile it, each in its
+// own cell, and every triple point is written once. Corners are worked out again in long doubles from the sides' names.
+#include "tests/kernel/device_event.h"
+#include "tests/reference/predicates.h"
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+namespace kernel_test {
+namespace {
+
+using brittle::FractureOptions;
+using reference::GridPoint;
+using Weights = std::array<long double, 3>; // of a triangle's corners, adding up to 1
+using Triple = std::array<uint32_t, 4>;     // triangle, three sites in order
+
+struct Polygons {
+    const DeviceEvent& event;
+    uint32_t count = event[COUNT_POLYGONS];
+    std::vector<GridPoint> sites = event.sites(), vertices = event.vertices();
+    std::vector<Word4> polygons = event.read<Word4>(event.buffers().polygons, count); // triangle, cell, flat with, pair
+    std::vector<Word4> offsets = event.read<Word4>(event.buffers().polygon_offsets, count + 1);
+    std::vector<uint32_t> side_list = event.read<uint32_t>(event.buffers().polygon_sides, event[COUNT_SIDES]);
+    uint32_t sideCount(uint32_t q) const { return offsets[q + 1][0] - offsets[q][0]; }
+    uint32_t side(uint32_t q, uint32_t k) const { return side_list[offsets[q][0] + k % sideCount(q)]; }
+    const GridPoint& corner(uint32_t t, size_t k) const { return vertices[event.mesh().triangles[t][k]]; }
+};
+
+// Values of a side's line at the triangle's corners.
+Weights lineOf(const Polygons& p, uint32_t q, uint32_t side) {
+    const auto [t, cell, flat, pair] = p.polygons[q];
+    if (side >= EDGE_BASE) {
+        Weights edge = {0, 0, 0};
+        edge[(side - EDGE_BASE + 2) % 3] = 1;
+        return edge;
+    }
+    Weights line;
+    for (size_t k = 0; k < 3; ++k)
+        line[k] = static_cast<long double>(reference::nearness(p.sites[cell], p.sites[side], p.corner(t, k)));
+    return line;
+}
+
+Weights meet(const Weights& a, const Weights& b) {
+    Weights w = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const long double sum = w[0] + w[1] + w[2];
+    for (long double& x : w)
+        x /= sum;
+    return w;
+}
+
+std::vector<Weights> cornersOf(const Polygons& p, uint32_t q) {
+    std::vector<Weights> corners;
+    for (uint32_t k = 0; k < p.sideCount(q); ++k)
+        corners.push_back(meet(lineOf(p, q, p.side(q, k)), lineOf(p, q, p.side(q, k + 1))));
+    return corners;
+}
+
+// In units of the triangle's, by the first two weights.
+long double shareOfArea(const std::vector<Weights>& corners) {
+    long double sum = 0;
+    for (size_t k = 0; k < corners.size(); ++k) {
+        const Weights &a = corners[k], &b = corners[(k + 1) % corners.size()];
+        sum += a[0] * b[1] - a[1] * b[0];
+    }
+    return sum;
+}
+
+// How far a corner lies beyond the bisector that it passes furthest, in grid steps.
+double outside(const Polygons& p, uint32_t q, const Weights& weights) {
+    const auto [t, cell, flat, pair] = p.polygons[q];
+    reference::Point place = {0, 0, 0};
+    std::vector<reference::Point> sites;
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t axis = 0; axis < 3; ++axis)
+            place[axis] += static_cast<double>(weights[k] * p.corner(t, k)[axis]);
+    for (const GridPoint& site : p.sites)
+        sites.push_back({double(site[0]), double(site[1]), double(site[2])});
+    return reference::distanceOutsideCell(sites, cell, place);
+}
+
+void expectInTheirCells(const Polygons& p) {
+    for (uint32_t q = 0; q < p.count; ++q)
+        for (const Weights& corner : cornersOf(p, q)) {
+            for (const long double w : corner)
+                ASSERT_GE(w, -1e-9L) << "polygon " << q;
+            ASSERT_LE(outside(p, q, corner), 1e-3) << "polygon " << q;
+        }
+}
+
+void expectTiles(const Polygons& p) {
+    std::map<uint32_t, long double> covered;
+    for (uint32_t q = 0; q < p.count; ++q) {
+        const long double share = shareOfArea(cornersOf(p, q));
+        ASSERT_GE(share, -1e-12L) << "polygon " << q;
+        covered[p.polygons[q][0]] += share;
+    }
+    ASSERT_EQ(covered.size(), p.event[COUNT_MIXED_TRIANGLES]);
+    for (const auto& [triangle, share] : covered)
+        ASSERT_NEAR(static_cast<double>(share), 1, 1e-9) << "triangle " << triangle;
+}
+
+// By triangle, then by cell; at most one of each.
+void expectOrdered(const Polygons& p) {
+    for (uint32_t q = 1; q < p.count; ++q) {
+        const Word4 &a = p.polygons[q - 1], &b = p.polygons[q];
+        ASSERT_LT(std::pair(a[0], a[1]), std::pair(b[0], b[1])) << "polygon " << q;
+    }
+}
+
+// Every corner of two bisectors is one triple point, on a list of its own, and three polygons have it.
+void expectTriples(const Polygons& p) {
+    std::map<Triple, uint32_t> visits;
+    for (uint32_t q = 0; q < p.count; ++q)
+        for (uint32_t k = 0; k < p.sideCount(q); ++k) {
+            Triple name = {p.polygons[q][0], p.polygons[q][1], p.side(q, k), p.side(q, k + 1)};
+            std::sort(name.begin() + 1, name.end());
+            if (name[3] < EDGE_BASE) ++visits[name];
+        }
+    ASSERT_EQ(p.event[COUNT_TRIPLES], visits.size());
+    for (const Triple& written : p.event.read<Triple>(p.event.buffers().triples, p.event[COUNT_TRIPLES]))
+        ASSERT_EQ(visits[written], 3u);
+}
+
+void expectCounts(const Polygons& p) {
+    uint32_t fans = 0, sides = 0;
+    for (uint32_t q = 0; q < p.count; ++q) {
+        ASSERT_EQ(p.offsets[q][0], sides);
+        ASSERT_EQ(p.offsets[q][3], fans);
+        ASSERT_GE(p.sideCount(q), 3u);
+        sides += p.sideCount(q);
+        fans += p.sideCount(q) - 2;
+    }
+    EXPECT_EQ(p.event[COUNT_SIDES], sides);
+    EXPECT_EQ(p.event[COUNT_FAN_TRIANGLES], fans);
+}
+
+void expectClipped(const brittle::PreparedMesh& solid, const FractureOptions& options) {
+    SCOPED_TRACE(options.given_sites.empty() ? options.site_count : options.given_sites.size());
+    const DeviceEvent event(solid, options, Until::Clipping);
+    const Polygons polygons{event};
+    for (const auto& expect : {expectCounts, expectOrdered, expectTiles, expectInTheirCells, expectTriples}) {
+        expect(polygons);
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TEST(SmallClipping, OfATriangleGivesPolygonsThatTileIt) {
+    const brittle::PreparedMesh bumpy = solidOf("bumpy:1");
+    for (const uint32_t count : {1u, 2u, 63u, 64u, 65u})
+        expectClipped(bumpy, {count, count, {}});
+}
+
+// Nearly all polygons lie inside large triangles, and are found in many rounds.
+TEST(Clipping, OfLargeTrianglesGoesOnUntilTheyAreTiled) { expectClipped(solidOf("cube"), {1234, 2, {}}); }
+TEST(Clipping, OfAFineMesh) { expectClipped(solidOf("bumpy:4"), {100, 3, {}}); }
+TEST(Clipping, OfARing) { expectClipped(solidOf("ring"), {200, 3, {}}); }
+
+// All bisectors meet in the places of the lattice: which polygon gets how many sides is up to the ties.
+TEST(SmallClipping, OfALatticeTilesTheCube) {
+    FractureOptions options;
+    for (uint32_t s = 0; s < 64; ++s)
+        options.given_sites.push_back({s % 4 / 4. - .375, s / 4 % 4 / 4. - .375, s / 16 / 4. - .375});
+    std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(1));
+    expectClipped(solidOf("cube"), options);
+}
+
+} // namespace
+} // namespace kernel_test
