@@ -157,13 +157,41 @@ TEST(Clipping, OfLargeTrianglesGoesOnUntilTheyAreTiled) { expectClipped(solidOf(
 TEST(Clipping, OfAFineMesh) { expectClipped(solidOf("bumpy:4"), {100, 3, {}}); }
 TEST(Clipping, OfARing) { expectClipped(solidOf("ring"), {200, 3, {}}); }
 
-// All bisectors meet in the places of the lattice: which polygon gets how many sides is up to the ties.
-TEST(SmallClipping, OfALatticeTilesTheCube) {
+FractureOptions latticeSites(double apart, uint32_t seed) {
     FractureOptions options;
     for (uint32_t s = 0; s < 64; ++s)
-        options.given_sites.push_back({s % 4 / 4. - .375, s / 4 % 4 / 4. - .375, s / 16 / 4. - .375});
-    std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(1));
-    expectClipped(solidOf("cube"), options);
+        options.given_sites.push_back({(s % 4 - 1.5) * apart, (s / 4 % 4 - 1.5) * apart, (s / 16 - 1.5) * apart});
+    std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
+    return options;
+}
+
+// All bisectors meet in the places of the lattice: which polygon gets how many sides is up to the ties.
+TEST(SmallClipping, OfALatticeTilesTheCube) {
+    for (uint32_t seed = 0; seed < 5; ++seed)
+        expectClipped(solidOf("cube"), latticeSites(.25, seed));
+}
+
+// The faces of the cube lie in bisectors, and so do its edges.
+TEST(SmallClipping, OfFacesInBisectorsTilesTheCube) {
+    for (uint32_t seed = 0; seed < 5; ++seed)
+        expectClipped(solidOf("cube"), latticeSites(.5, seed));
+}
+
+// The top lies in the bisector of a site below it and one above. It goes to the lower site's cell, marked where that is the
+// one above: the solid is on the other side.
+TEST(SmallClipping, MarksPolygonsThatBelongToTheOtherSideOfTheirBisector) {
+    for (const double first : {.25, .75}) {
+        const DeviceEvent event(solidOf("cube"), {0, 0, {{0, 0, first}, {0, 0, 1 - first}}}, Until::Clipping);
+        const Polygons p{event};
+        uint32_t flat = 0;
+        for (const Word4& polygon : p.polygons) {
+            if (polygon[2] == NO_INDEX) continue;
+            ++flat;
+            EXPECT_EQ(polygon[1], 0u);
+            EXPECT_EQ(polygon[2], 1u);
+        }
+        EXPECT_EQ(flat, first < .5 ? 0u : 2u);
+    }
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #include "tests/reference/big_int.h"
 #include "tests/reference/predicates.h"
 
+#include <algorithm>
+#include <random>
 #include <set>
 
 namespace kernel_test {
@@ -25,14 +27,14 @@ struct Owners {
     bool mixed(const std::array<uint32_t, 2>& edge) const { return of(edge[0]) != of(edge[1]); }
 };
 
-// Sites on a lattice whose bisectors run through the corners of the cube, and through many lattice points.
-FractureOptions latticeSites(uint32_t per_axis) {
+// Sites on a lattice about the middle of the cube, whose bisectors run along the planes of its edges and its diagonals.
+FractureOptions latticeSites(uint32_t per_axis, double apart) {
     FractureOptions options;
     for (uint32_t s = 0; s < per_axis * per_axis * per_axis; ++s) {
         const uint32_t at[] = {s % per_axis, s / per_axis % per_axis, s / per_axis / per_axis};
         brittle::Double3 p;
         for (size_t k = 0; k < 3; ++k)
-            p[k] = (static_cast<double>(at[k]) - (per_axis - 1) / 2.0) / 4;
+            p[k] = (static_cast<double>(at[k]) - (per_axis - 1) / 2.0) * apart;
         options.given_sites.push_back(p);
     }
     return options;
@@ -161,7 +163,28 @@ TEST(Ownership, OfARing) { expectClassified(solidOf("ring"), {200, 3, {}}); }
 
 TEST(SmallOwnership, OfTiesIsTheLowerSites) {
     for (const uint32_t per_axis : {2u, 3u, 4u, 5u})
-        expectClassified(solidOf("cube"), latticeSites(per_axis));
+        expectClassified(solidOf("cube"), latticeSites(per_axis, .25));
+}
+
+// With sites a quarter beside every face: the corners are tied among eight sites, and the faces lie in bisectors.
+TEST(SmallOwnership, OfAFaceInABisectorIsTheLowerSites) {
+    FractureOptions options = latticeSites(4, .5);
+    expectClassified(solidOf("cube"), options);
+    for (uint32_t seed = 0; seed < 5; ++seed) {
+        std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
+        expectClassified(solidOf("cube"), options);
+    }
+    const DeviceEvent event(solidOf("cube"), options, Until::Classification);
+    EXPECT_EQ(event[COUNT_MIXED_TRIANGLES], 12u);
+}
+
+// Two sites, one above and one below the top: four corners are tied and no edge is cut, and yet the top is not whole.
+TEST(SmallOwnership, OfAFaceBetweenTwoSitesIsMixedThoughNoEdgeIs) {
+    for (const double first : {.25, .75}) {
+        const FractureOptions options{0, 0, {{0, 0, first}, {0, 0, 1 - first}}};
+        expectClassified(solidOf("cube"), options);
+        EXPECT_EQ(DeviceEvent(solidOf("cube"), options, Until::Classification)[COUNT_MIXED_TRIANGLES], first < .5 ? 2u : 10u);
+    }
 }
 
 } // namespace

@@ -97,6 +97,35 @@ TEST(SmallSites, AtOnePlaceAreWeldedToTheFirst) {
     }
 }
 
+// Weld points until the table is full of each place's highest point, as if that had come first, and then weld them again.
+TEST(SmallSites, AtOnePlaceAreWeldedToTheFirstWhicheverComesFirst) {
+    for (const uint32_t count : kSizes) {
+        std::vector<std::array<uint32_t, 3>> points;
+        std::map<std::array<uint32_t, 3>, std::array<uint32_t, 2>> ends; // lowest and highest id at a place
+        std::vector<uint32_t> expected;
+        for (uint32_t s = 0; s < count; ++s) {
+            points.push_back({s * s % 37, s % 5, s * 7 % 3});
+            ends.try_emplace(points[s], std::array<uint32_t, 2>{s, s}).first->second[1] = s;
+            expected.push_back(ends[points[s]][0]);
+        }
+        Counts counts;
+        const engine::Buffer in = bufferOf(points), table = bufferOf(std::vector<uint32_t>(4096));
+        const engine::Buffer slots = blankBuffer<uint32_t>(count), welded = blankBuffer<uint32_t>(count);
+        const auto weld = [&](engine::Commands& commands) {
+            commands.dispatch(kernel("weld_sites"), count, std::array<uint32_t, 3>{count, NO_INDEX, 4095},
+                              {counts.words, in, table, slots});
+            commands.dispatch(kernel("resolve_points"), count, Word2{count, NO_INDEX}, {counts.words, table, slots, welded});
+        };
+        onDevice(weld);
+        EXPECT_EQ(valuesOf<uint32_t>(welded, count), expected);
+        for (uint32_t& held : std::span(table.mappedAs<uint32_t>(), 4096))
+            if (held != 0) held = ends[points[held - 1]][1] + 1;
+        onDevice(weld);
+        EXPECT_EQ(valuesOf<uint32_t>(welded, count), expected);
+        EXPECT_EQ(counts[STATUS_BAD_WELD], 0u);
+    }
+}
+
 TEST(SmallSites, WithoutAPlaceAreCountedAndLeftOut) {
     for (const uint32_t count : kSizes) {
         std::vector<uint32_t> welded, placed, expected;
