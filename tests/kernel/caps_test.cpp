@@ -87,15 +87,20 @@ TEST(SmallCaps, OfConcavePolygons) {
     expectCapped(polygons);
 }
 
+// Those with few corners are done by a lane each, however deep their corners.
 TEST(SmallCaps, OfAsManyFacesAsThereAre) {
     for (const uint32_t count : kSizes) {
         std::mt19937 random(count);
         std::vector<CapPolygon> polygons;
-        for (uint32_t f = 0; f < count; ++f)
+        uint32_t large = 0;
+        for (uint32_t f = 0; f < count; ++f) {
             polygons.push_back(starOf(static_cast<uint32_t>(3 + random() % 26), random));
+            large += polygons[f].segments.size() > SMALL_FACE ? 1 : 0;
+        }
         const CapRun run = capOnDevice(polygons, kCapBases[0], Through::AllInTurn);
         for (size_t f = 0; f < count; ++f)
             expectTriangulated(polygons[f], run.triangles[f]);
+        EXPECT_EQ(run.large, large);
     }
 }
 
@@ -140,7 +145,10 @@ TEST(SmallCaps, LeaveOutSidesThatCancel) {
     both.triangles = 3;
     CapPolygon nothing = polygonOf({{{0, 0}, {50, -20}}});
     nothing.triangles = 0;
-    expectCapped({both, nothing});
+    CapPolygon twice = polygonOf({kEll}); // one side there, back, and there again
+    twice.segments.push_back({1, 0});
+    twice.segments.push_back({0, 1});
+    expectCapped({both, nothing, twice});
 }
 
 TEST(SmallCaps, LeaveOutSidesOfNoLength) {

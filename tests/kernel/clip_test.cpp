@@ -1,7 +1,6 @@
 // seed_pairs, clip_triangles, place_polygons, order_polygons and list_triples: the polygons of a triangle tile it, each in its
-// own cell, and every triple point is written once. Corners are worked out again in long doubles from the sides' names.
-#include "tests/kernel/device_event.h"
-#include "tests/reference/predicates.h"
+// own cell, and every triple point is written once.
+#include "tests/kernel/clipped_polygons.h"
 
 #include <algorithm>
 #include <map>
@@ -13,49 +12,7 @@ namespace {
 
 using brittle::FractureOptions;
 using reference::GridPoint;
-using Weights = std::array<long double, 3>; // of a triangle's corners, adding up to 1
-using Triple = std::array<uint32_t, 4>;     // triangle, three sites in order
-
-struct Polygons {
-    const DeviceEvent& event;
-    uint32_t count = event[COUNT_POLYGONS];
-    std::vector<GridPoint> sites = event.sites(), vertices = event.vertices();
-    std::vector<Word4> polygons = event.read<Word4>(event.buffers().polygons, count); // triangle, cell, flat with, pair
-    std::vector<Word4> offsets = event.read<Word4>(event.buffers().polygon_offsets, count + 1);
-    std::vector<uint32_t> side_list = event.read<uint32_t>(event.buffers().polygon_sides, event[COUNT_SIDES]);
-    uint32_t sideCount(uint32_t q) const { return offsets[q + 1][0] - offsets[q][0]; }
-    uint32_t side(uint32_t q, uint32_t k) const { return side_list[offsets[q][0] + k % sideCount(q)]; }
-    const GridPoint& corner(uint32_t t, size_t k) const { return vertices[event.mesh().triangles[t][k]]; }
-};
-
-// Values of a side's line at the triangle's corners.
-Weights lineOf(const Polygons& p, uint32_t q, uint32_t side) {
-    const auto [t, cell, flat, pair] = p.polygons[q];
-    if (side >= EDGE_BASE) {
-        Weights edge = {0, 0, 0};
-        edge[(side - EDGE_BASE + 2) % 3] = 1;
-        return edge;
-    }
-    Weights line;
-    for (size_t k = 0; k < 3; ++k)
-        line[k] = static_cast<long double>(reference::nearness(p.sites[cell], p.sites[side], p.corner(t, k)));
-    return line;
-}
-
-Weights meet(const Weights& a, const Weights& b) {
-    Weights w = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const long double sum = w[0] + w[1] + w[2];
-    for (long double& x : w)
-        x /= sum;
-    return w;
-}
-
-std::vector<Weights> cornersOf(const Polygons& p, uint32_t q) {
-    std::vector<Weights> corners;
-    for (uint32_t k = 0; k < p.sideCount(q); ++k)
-        corners.push_back(meet(lineOf(p, q, p.side(q, k)), lineOf(p, q, p.side(q, k + 1))));
-    return corners;
-}
+using Triple = std::array<uint32_t, 4>; // triangle, three sites in order
 
 // In units of the triangle's, by the first two weights.
 long double shareOfArea(const std::vector<Weights>& corners) {
@@ -70,14 +27,11 @@ long double shareOfArea(const std::vector<Weights>& corners) {
 // How far a corner lies beyond the bisector that it passes furthest, in grid steps.
 double outside(const Polygons& p, uint32_t q, const Weights& weights) {
     const auto [t, cell, flat, pair] = p.polygons[q];
-    reference::Point place = {0, 0, 0};
+    const LongPoint place = placeOf(p, t, weights);
     std::vector<reference::Point> sites;
-    for (size_t k = 0; k < 3; ++k)
-        for (size_t axis = 0; axis < 3; ++axis)
-            place[axis] += static_cast<double>(weights[k] * p.corner(t, k)[axis]);
     for (const GridPoint& site : p.sites)
         sites.push_back({double(site[0]), double(site[1]), double(site[2])});
-    return reference::distanceOutsideCell(sites, cell, place);
+    return reference::distanceOutsideCell(sites, cell, {double(place[0]), double(place[1]), double(place[2])});
 }
 
 void expectInTheirCells(const Polygons& p) {
