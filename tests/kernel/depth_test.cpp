@@ -3,6 +3,7 @@
 #include "tests/kernel/clipped_polygons.h"
 #include "tests/support/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -125,6 +126,19 @@ TEST(Depth, InShellsWithinShells) {
     }
     expectDepth(solidOf(shells), sitesAround(200, 12));
     expectDepth(solidOf(shells), sitesAround(4, 12));
+}
+
+// Voronoi edges run along the axes, and many vertices are one place: x, y and z decide in turn which way is up.
+TEST(SmallDepth, InALattice) {
+    for (const double apart : {.25, .4, .6}) {
+        FractureOptions options;
+        for (uint32_t s = 0; s < 64; ++s)
+            options.given_sites.push_back({(s % 4 - 1.5) * apart, (s / 4 % 4 - 1.5) * apart, (s / 16 - 1.5) * apart});
+        for (uint32_t seed = 0; seed < 4; ++seed) {
+            std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
+            expectDepth(solidOf("cube"), options);
+        }
+    }
 }
 
 // Chains of links with a depth at each: lengths of one, around a workgroup, and longer than a round reaches.
