@@ -129,6 +129,9 @@ const std::vector<Edge> kEdges = {
     {{at(kOut, 0), at(kOut, 1), at(kIn, 1), at(kIn, 3)}, 1, 1, {{kStart, 0}, {2, 1}, {3, kEnd}}},
     // A surface that is only touched.
     {{at(kOut, 0), at(kIn, 0)}, 0, 0, {{1, 0}}},
+    // Out before in, of a solid that is inside out: the way inside is walked backwards.
+    {{at(kOut, 0), at(kIn, 1)}, 0, 0, {{1, 0}}},
+    {{at(kOut, 0), at(kOut, 1), at(kIn, 2), at(kIn, 3)}, 0, 0, {{2, 1}, {3, 0}}},
     // Solids that overlap: the edge is inside twice.
     {{at(kIn, 0), at(kIn, 1), at(kOut, 2), at(kOut, 3)}, 0, 0, {{1, 2}, {0, 3}}}};
 

@@ -139,6 +139,7 @@ TEST(SmallFates, OfACavityIsTheSmallestPieceAroundIt) {
     EXPECT_EQ(judged.fates, expected);
     EXPECT_EQ(judged.cavities, 3u);
     EXPECT_EQ(judged.dissolved + judged.bad, 0u);
+    EXPECT_EQ(judgeOnDevice({{small, 7}, {large, 7}, {cavity(30, 40), 7}}, .01f).fates[2], (Word2{FATE_CAVITY, 0}));
 }
 
 // Bounds alone would put it into the L; and what is around it lies in another cell.
