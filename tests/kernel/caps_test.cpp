@@ -180,5 +180,28 @@ TEST(Caps, OfMoreSidesAreCounted) {
     EXPECT_EQ(run.triangles[1].size(), 1u);
 }
 
+// A ray to the right from the corner of one hole runs along the side of the next. Whatever order the sides come in.
+TEST(SmallCaps, OfHolesInARow) {
+    std::mt19937 random(1);
+    for (uint32_t order = 0; order < 50; ++order) {
+        CapPolygon polygon = polygonOf({squareAt(0, 0, 1000), reversed(squareAt(-600, 0, 100)), reversed(squareAt(0, 0, 100)),
+                                        reversed(squareAt(500, 0, 100))});
+        polygon.may_be_flat = true;
+        std::shuffle(polygon.segments.begin(), polygon.segments.end(), random);
+        expectCapped({polygon});
+    }
+}
+
+// Where one loop is done rounds before another.
+TEST(SmallCaps, HaveNoTriangleThatNamesACornerTwice) {
+    std::vector<CapLoop> squares;
+    for (int32_t k = 0; k < 30; ++k)
+        squares.push_back(squareAt(k % 6 * 100, k / 6 * 100, 10 + k));
+    for (const Through kernel : {Through::Large, Through::Huge}) {
+        EXPECT_EQ(capOnDevice({polygonOf({kEll, squareAt(25, 20, 9)})}, kCapBases[0], kernel).collapsed, 0u);
+        EXPECT_EQ(capOnDevice({polygonOf(squares)}, kCapBases[0], kernel).collapsed, 0u);
+    }
+}
+
 } // namespace
 } // namespace kernel_test
