@@ -183,12 +183,19 @@ TEST(Caps, OfMoreSidesAreCounted) {
 // A ray to the right from the corner of one hole runs along the side of the next. Whatever order the sides come in.
 TEST(SmallCaps, OfHolesInARow) {
     std::mt19937 random(1);
-    for (uint32_t order = 0; order < 50; ++order) {
-        CapPolygon polygon = polygonOf({squareAt(0, 0, 1000), reversed(squareAt(-600, 0, 100)), reversed(squareAt(0, 0, 100)),
-                                        reversed(squareAt(500, 0, 100))});
-        polygon.may_be_flat = true;
-        std::shuffle(polygon.segments.begin(), polygon.segments.end(), random);
-        expectCapped({polygon});
+    const CapLoop outline = squareAt(0, 0, 1000);
+    std::vector<CapLoop> row = {outline}, rows = {outline}; // level, and one up or down
+    for (int32_t k = 0; k < 3; ++k)
+        row.push_back(reversed(squareAt(550 * k - 600, 0, 100)));
+    for (int32_t k = 0; k < 25; ++k)
+        rows.push_back(reversed(squareAt(k % 5 * 300 - 600, k / 5 * 300 - 600 + k % 2, 80)));
+    std::vector<CapPolygon> polygons = {polygonOf(row), polygonOf(rows)};
+    for (uint32_t order = 0; order < 25; ++order) {
+        for (CapPolygon& polygon : polygons) {
+            polygon.may_be_flat = true;
+            std::shuffle(polygon.segments.begin(), polygon.segments.end(), random);
+        }
+        expectCapped(polygons);
     }
 }
 
