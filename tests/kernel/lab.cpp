@@ -10,11 +10,14 @@ namespace {
 // One library for the kernels of the project, one for those of the tests. Both go before their device does.
 class Libraries : public testing::Environment {
 public:
-    const engine::Kernel& find(bool of_tests, std::string_view name, std::span<const uint32_t> spec) {
+    engine::KernelLibrary& get(bool of_tests) {
         std::unique_ptr<engine::KernelLibrary>& library = libraries_[of_tests];
         const auto modules = of_tests ? shaders::kernelTestKernels() : shaders::all();
         if (!library) library = std::make_unique<engine::KernelLibrary>(engine_test::device(), modules);
-        const auto kernel = library->get(name, spec);
+        return *library;
+    }
+    const engine::Kernel& find(bool of_tests, std::string_view name, std::span<const uint32_t> spec) {
+        const auto kernel = get(of_tests).get(name, spec);
         if (!kernel) {
             std::fprintf(stderr, "%s\n", kernel.error().message.c_str());
             std::_Exit(EXIT_FAILURE);
@@ -34,6 +37,8 @@ private:
 Libraries& libraries = *static_cast<Libraries*>(testing::AddGlobalTestEnvironment(new Libraries));
 
 } // namespace
+
+engine::KernelLibrary& kernels() { return libraries.get(false); }
 
 const engine::Kernel& kernel(std::string_view name, std::initializer_list<uint32_t> spec) {
     return libraries.find(false, name, {spec.begin(), spec.size()});

@@ -24,6 +24,7 @@ using Word2 = std::array<uint32_t, 2>;
 using Word4 = std::array<uint32_t, 4>;
 using Int4 = std::array<int32_t, 4>;
 
+engine::KernelLibrary& kernels(); // of the project
 const engine::Kernel& kernel(std::string_view name, std::initializer_list<uint32_t> spec = {});
 const engine::Kernel& testKernel(std::string_view name);
 

@@ -1,0 +1,174 @@
+#include "tests/kernel/cap_polygons.h"
+
+#include <map>
+#include <numeric>
+#include <random>
+
+namespace kernel_test {
+namespace {
+
+// The buffers of the cap kernels, with all polygons one after the other.
+struct CapBuffers {
+    std::vector<uint32_t> offsets = {0}, first_point = {0};
+    std::vector<Word4> segments;
+    std::vector<std::array<int64_t, 3>> points;
+    size_t faces() const { return offsets.size() - 1; }
+};
+
+// Segments come in any order, as atomics leave them; their sources say which order they had.
+CapBuffers buffersOf(const std::vector<CapPolygon>& polygons, const CapBasis& basis) {
+    CapBuffers all;
+    std::mt19937 random(17);
+    uint32_t source = 0;
+    for (const CapPolygon& polygon : polygons) {
+        const uint32_t first = static_cast<uint32_t>(all.points.size());
+        for (const CapPoint& p : polygon.points) {
+            std::array<int64_t, 3> place;
+            for (size_t k = 0; k < 3; ++k)
+                place[k] = ((int64_t{1} << 23) + int64_t{p[0]} * basis.x[k] + int64_t{p[1]} * basis.y[k]) * (1 << 24);
+            all.points.push_back(place);
+        }
+        for (const Word2& s : polygon.segments)
+            all.segments.push_back({first + s[0], first + s[1], source++, 0});
+        std::shuffle(all.segments.begin() + all.offsets.back(), all.segments.end(), random);
+        all.offsets.push_back(static_cast<uint32_t>(all.segments.size()));
+        all.first_point.push_back(static_cast<uint32_t>(all.points.size()));
+    }
+    return all;
+}
+
+std::vector<uint32_t> countUp(size_t count) {
+    std::vector<uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
+}
+
+// As list_caps reads them: the first so many slots of a face that are filled, without triangles that name a corner twice.
+std::vector<Grid3> trianglesOf(const CapBuffers& all, size_t f, uint32_t count, const std::vector<Word4>& slots,
+                               uint32_t& collapsed) {
+    std::vector<Grid3> triangles;
+    for (size_t at = 2 * all.offsets[f]; at < 2 * all.offsets[f + 1] && triangles.size() < count; ++at) {
+        if (slots[at][0] == NO_INDEX) continue;
+        Grid3 triangle;
+        for (size_t k = 0; k < 3; ++k)
+            triangle[k] = static_cast<int32_t>(slots[at][k] - all.first_point[f]);
+        triangles.push_back(triangle);
+        EXPECT_EQ(slots[at][3], f);
+    }
+    EXPECT_EQ(triangles.size(), count) << "polygon " << f;
+    const auto isCollapsed = [](const Grid3& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
+    collapsed += static_cast<uint32_t>(std::erase_if(triangles, isCollapsed));
+    return triangles;
+}
+
+int64_t doubleArea(const CapPoint& a, const CapPoint& b, const CapPoint& c) {
+    return int64_t{b[0] - a[0]} * (c[1] - a[1]) - int64_t{b[1] - a[1]} * (c[0] - a[0]);
+}
+
+// How often each side is walked one way more than the other.
+class Outline {
+public:
+    void add(uint32_t a, uint32_t b) {
+        if (a == b) return;
+        int& net = net_[{std::min(a, b), std::max(a, b)}];
+        net += a < b ? 1 : -1;
+        if (net == 0) net_.erase({std::min(a, b), std::max(a, b)});
+    }
+    bool operator==(const Outline&) const = default;
+
+private:
+    std::map<Word2, int> net_;
+};
+
+} // namespace
+
+const std::vector<CapBasis> kCapBases = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},   {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}},
+                                         {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}},   {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+                                         {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},   {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                                         {{1, -1, 0}, {1, 1, -2}, {1, 1, 1}}, {{1, 1, -2}, {1, -1, 0}, {-1, -1, -1}}};
+
+CapPolygon polygonOf(const std::vector<CapLoop>& loops) {
+    CapPolygon polygon;
+    std::map<CapPoint, uint32_t> ids;
+    int64_t triangles = 0;
+    for (const CapLoop& loop : loops) {
+        int64_t area = 0;
+        for (size_t k = 0; k < loop.size(); ++k) {
+            const CapPoint &a = loop[k], &b = loop[(k + 1) % loop.size()];
+            for (const CapPoint& p : {a, b})
+                if (ids.try_emplace(p, static_cast<uint32_t>(polygon.points.size())).second) polygon.points.push_back(p);
+            polygon.segments.push_back({ids[a], ids[b]});
+            area += doubleArea(loop[0], a, b);
+        }
+        triangles += static_cast<int64_t>(loop.size()) + (area > 0 ? -2 : 2);
+    }
+    polygon.triangles = static_cast<size_t>(triangles);
+    return polygon;
+}
+
+CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basis, Through through) {
+    const CapBuffers all = buffersOf(polygons, basis);
+    const uint32_t n = static_cast<uint32_t>(polygons.size());
+    const size_t slots = 2 * all.segments.size();
+    Counts counts;
+    counts[COUNT_FACES] = n;
+    if (through == Through::Large) counts[COUNT_LARGE_FACES] = n;
+    if (through == Through::Huge) counts[COUNT_HUGE_FACES] = n;
+    const Grid3& to = basis.normal;
+    const engine::Buffer sites = bufferOf<Int4>({{1000, 1000, 1000, 0}, {1000 + to[0], 1000 + to[1], 1000 + to[2], 0}});
+    const engine::Buffer faces = bufferOf(countUp(n)), neighbors = bufferOf(std::vector<uint32_t>(n, 1));
+    const engine::Buffer cells = bufferOf(std::vector<uint32_t>(n)), offsets = bufferOf(all.offsets),
+                         points = bufferOf(all.points);
+    const engine::Buffer segments = bufferOf(all.segments), welded = bufferOf(countUp(all.points.size()));
+    const engine::Buffer loose = blankBuffer<Word4>(slots), cap_counts = blankBuffer<uint32_t>(n);
+    const engine::Buffer large = bufferOf(countUp(n)), huge = bufferOf(countUp(n));
+    const engine::Buffer nodes = blankBuffer<Word4>(slots), rings = blankBuffer<Word4>(slots),
+                         loops = blankBuffer<Word4>(slots);
+    const auto run = [&](engine::Commands& commands, const char* name, uint32_t count, const engine::Buffer& list) {
+        counts.publish(commands, count, n);
+        commands.dispatchIndirect(kernel(name), counts.groupsOf(count), engine::NoPush{},
+                                  {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
+                                   cap_counts, list, nodes, rings, loops});
+    };
+    onDevice([&](engine::Commands& commands) {
+        if (through == Through::AllInTurn)
+            commands.dispatch(kernel("cap_faces"), n, engine::NoPush{},
+                              {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
+                               cap_counts, large, huge});
+        if (through != Through::Huge) run(commands, "cap_faces_large", COUNT_LARGE_FACES, large);
+        if (through != Through::Large) run(commands, "cap_faces_huge", COUNT_HUGE_FACES, huge);
+    });
+    CapRun result{{}, counts[COUNT_LARGE_FACES], counts[COUNT_HUGE_FACES], counts[STATUS_BAD_CAP], counts[STATUS_TURNED_OVER],
+                  0};
+    const std::vector<uint32_t> made = valuesOf<uint32_t>(cap_counts, n);
+    const std::vector<Word4> filled = valuesOf<Word4>(loose, slots);
+    for (size_t f = 0; f < n; ++f)
+        result.triangles.push_back(trianglesOf(all, f, made[f], filled, result.collapsed));
+    return result;
+}
+
+void expectTriangulated(const CapPolygon& polygon, const std::vector<Grid3>& triangles) {
+    EXPECT_EQ(triangles.size(), polygon.triangles.value_or(triangles.size()));
+    Outline expected, found;
+    int64_t area = 0, sum = 0;
+    for (const Word2& s : polygon.segments) {
+        expected.add(s[0], s[1]);
+        area += doubleArea({0, 0}, polygon.points[s[0]], polygon.points[s[1]]);
+    }
+    for (const Grid3& t : triangles) {
+        std::array<CapPoint, 3> corner;
+        for (size_t k = 0; k < 3; ++k) {
+            const auto a = static_cast<size_t>(t[k]), b = static_cast<size_t>(t[(k + 1) % 3]);
+            ASSERT_LT(std::max(a, b), polygon.points.size());
+            found.add(static_cast<uint32_t>(a), static_cast<uint32_t>(b));
+            corner[k] = polygon.points[a];
+        }
+        const int64_t part = doubleArea(corner[0], corner[1], corner[2]);
+        EXPECT_GE(part, polygon.may_be_flat ? 0 : 1) << t[0] << " " << t[1] << " " << t[2];
+        sum += part;
+    }
+    EXPECT_EQ(sum, area);
+    EXPECT_TRUE(found == expected) << "the outline of " << polygon.segments.size() << " sides is not that of the triangles";
+}
+
+} // namespace kernel_test

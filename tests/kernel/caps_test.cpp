@@ -1,0 +1,214 @@
+// cap_faces, cap_faces_large and cap_faces_huge on polygons made by hand: the triangles of a cap have the polygon's outline,
+// edge by edge, none is turned over, and their areas add up.
+#include "tests/kernel/cap_polygons.h"
+
+#include <random>
+
+namespace kernel_test {
+namespace {
+
+// Every kernel that has room for the polygons must triangulate them, not only the one that gets them in earnest.
+void expectCapped(const std::vector<CapPolygon>& polygons, const CapBasis& basis = kCapBases[0]) {
+    size_t longest = 0;
+    for (const CapPolygon& polygon : polygons)
+        longest = std::max(longest, polygon.segments.size());
+    const CapRun in_turn = capOnDevice(polygons, basis, Through::AllInTurn);
+    for (size_t f = 0; f < polygons.size(); ++f)
+        expectTriangulated(polygons[f], in_turn.triangles[f]);
+    EXPECT_EQ(in_turn.bad, 0u);
+    for (const Through kernel : {Through::Large, Through::Huge}) {
+        if (longest > (kernel == Through::Large ? LARGE_FACE : HUGE_FACE)) continue;
+        const CapRun run = capOnDevice(polygons, basis, kernel);
+        for (size_t f = 0; f < polygons.size(); ++f)
+            expectTriangulated(polygons[f], run.triangles[f]);
+        EXPECT_EQ(run.bad + run.turned_over, 0u);
+    }
+}
+
+CapPolygon ringOf(uint32_t corners, int32_t radius = 100'000) {
+    CapLoop loop;
+    for (uint32_t k = 0; k < corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / corners;
+        loop.push_back({static_cast<int32_t>(radius * std::cos(angle)), static_cast<int32_t>(radius * std::sin(angle))});
+    }
+    return polygonOf({loop});
+}
+
+// Seen whole from the middle, with corners of any depth.
+CapPolygon starOf(uint32_t corners, std::mt19937& random) {
+    CapLoop loop;
+    for (uint32_t k = 0; k < corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / corners, radius = static_cast<double>(20'000 + random() % 80'000);
+        loop.push_back({static_cast<int32_t>(radius * std::cos(angle)), static_cast<int32_t>(radius * std::sin(angle))});
+    }
+    return polygonOf({loop});
+}
+
+// Teeth so narrow that no tooth sees into another.
+CapPolygon combOf(int32_t teeth) {
+    CapLoop loop = {{-5, -1000}, {teeth * 100, -1001}};
+    for (int32_t k = teeth; k-- > 0;) {
+        loop.push_back({k * 100 + 30, 10'000 + k % 3});
+        loop.push_back({k * 100, k % 2});
+    }
+    return polygonOf({loop});
+}
+
+CapLoop squareAt(int32_t x, int32_t y, int32_t half) {
+    return {{x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
+}
+CapLoop reversed(CapLoop loop) {
+    std::reverse(loop.begin(), loop.end());
+    return loop;
+}
+
+const CapLoop kEll = {{0, 0}, {40, 0}, {40, 10}, {10, 10}, {10, 30}, {0, 30}};
+
+TEST(SmallCaps, OfConvexPolygons) {
+    std::vector<CapPolygon> polygons;
+    for (const uint32_t corners : {3u, 4u, 5u, 12u, 24u})
+        polygons.push_back(ringOf(corners));
+    EXPECT_EQ(capOnDevice(polygons, kCapBases[0], Through::AllInTurn).large, 0u) << "a lane can do them";
+    for (const uint32_t corners : {25u, 63u, 64u, 65u, 256u})
+        polygons.push_back(ringOf(corners));
+    expectCapped(polygons);
+}
+
+TEST(SmallCaps, OfPolygonsInEveryDirection) {
+    for (const CapBasis& basis : kCapBases)
+        expectCapped({ringOf(7), polygonOf({kEll}), polygonOf({squareAt(0, 0, 90), reversed(squareAt(3, 7, 40))})}, basis);
+}
+
+TEST(SmallCaps, OfConcavePolygons) {
+    std::mt19937 random(1);
+    std::vector<CapPolygon> polygons = {polygonOf({kEll}), combOf(3), combOf(11), combOf(40), combOf(120)};
+    for (const uint32_t corners : {8u, 24u, 25u, 100u, 256u})
+        polygons.push_back(starOf(corners, random));
+    expectCapped(polygons);
+}
+
+// Those with few corners are done by a lane each, however deep their corners.
+TEST(SmallCaps, OfAsManyFacesAsThereAre) {
+    for (const uint32_t count : kSizes) {
+        std::mt19937 random(count);
+        std::vector<CapPolygon> polygons;
+        uint32_t large = 0;
+        for (uint32_t f = 0; f < count; ++f) {
+            polygons.push_back(starOf(static_cast<uint32_t>(3 + random() % 26), random));
+            large += polygons[f].segments.size() > SMALL_FACE ? 1 : 0;
+        }
+        const CapRun run = capOnDevice(polygons, kCapBases[0], Through::AllInTurn);
+        for (size_t f = 0; f < count; ++f)
+            expectTriangulated(polygons[f], run.triangles[f]);
+        EXPECT_EQ(run.large, large);
+    }
+}
+
+TEST(SmallCaps, OfHolesAndIslands) {
+    const CapLoop outline = squareAt(0, 0, 1000);
+    std::mt19937 random(5);
+    std::vector<CapLoop> sieve = {outline};
+    for (int32_t k = 0; k < 25; ++k) {
+        sieve.push_back(reversed(squareAt(k % 5 * 300 - 600, k / 5 * 300 - 600, 80)));
+        for (CapPoint& p : sieve.back())
+            p = {p[0] + static_cast<int32_t>(random() % 41), p[1] + static_cast<int32_t>(random() % 41)};
+    }
+    expectCapped({polygonOf({outline, reversed(squareAt(10, -20, 300))}), polygonOf({outline, reversed(kEll)}),
+                  polygonOf({outline, reversed(squareAt(-500, 1, 300)), reversed(squareAt(500, 0, 300))}),
+                  polygonOf({outline, reversed(squareAt(0, 0, 700)), squareAt(0, 0, 400), reversed(squareAt(5, 5, 100))}),
+                  polygonOf(sieve)});
+}
+
+TEST(SmallCaps, OfSeveralLoops) {
+    std::vector<CapLoop> squares;
+    for (int32_t k = 0; k < 30; ++k)
+        squares.push_back(squareAt(k % 6 * 100, k / 6 * 100, 10 + k));
+    expectCapped({polygonOf({squares[0], squares[1]}), polygonOf(squares), polygonOf({kEll, squareAt(25, 20, 9)})});
+}
+
+// Loops that share corners: whichever way they are chained, the outline and the area stay.
+TEST(SmallCaps, OfTouchingLoops) {
+    const CapLoop outline = squareAt(0, 0, 1000);
+    const CapLoop hole_at_corner = {{-1000, -1000}, {-500, 0}, {0, -500}}, hole_at_side = {{1000, -1000}, {0, 300}, {600, 500}};
+    std::vector<CapPolygon> polygons = {polygonOf({squareAt(0, 0, 50), squareAt(100, 100, 50)}),
+                                        polygonOf({squareAt(0, 0, 50), squareAt(100, 100, 50), squareAt(200, 0, 50)}),
+                                        polygonOf({outline, hole_at_corner}), polygonOf({outline, hole_at_side}),
+                                        polygonOf({outline, reversed(squareAt(0, 0, 90)), reversed(squareAt(180, 180, 90))})};
+    for (CapPolygon& polygon : polygons)
+        polygon.triangles.reset();
+    expectCapped(polygons);
+}
+
+// Two polygons with a side in common, walked both ways: the side is no boundary.
+TEST(SmallCaps, LeaveOutSidesThatCancel) {
+    CapPolygon both = polygonOf({{{0, 0}, {50, -20}, {60, 40}, {5, 60}}, {{60, 40}, {50, -20}, {120, 10}}});
+    both.triangles = 3;
+    CapPolygon nothing = polygonOf({{{0, 0}, {50, -20}}});
+    nothing.triangles = 0;
+    CapPolygon twice = polygonOf({kEll}); // one side there, back, and there again
+    twice.segments.push_back({1, 0});
+    twice.segments.push_back({0, 1});
+    expectCapped({both, nothing, twice});
+}
+
+TEST(SmallCaps, LeaveOutSidesOfNoLength) {
+    CapPolygon ell = polygonOf({kEll});
+    ell.segments.push_back({2, 2});
+    ell.segments.push_back({5, 5});
+    expectCapped({ell});
+}
+
+// Flat corners may give triangles without area, but none that is turned over.
+TEST(SmallCaps, KeepCornersOnStraightSides) {
+    const CapLoop loop = {{0, 0}, {5, 0}, {20, 0}, {40, 0}, {40, 20}, {40, 30}, {0, 30}, {0, 10}, {0, 5}};
+    CapPolygon polygon = polygonOf({loop});
+    polygon.may_be_flat = true;
+    expectCapped({polygon});
+}
+
+TEST(Caps, OfThreeHundredSides) {
+    std::mt19937 random(3);
+    expectCapped({ringOf(300, 1'000'000), starOf(300, random), combOf(149)});
+}
+
+TEST(Caps, OfTheMostSidesThatAreTaken) { expectCapped({ringOf(HUGE_FACE, 2'000'000)}); }
+
+TEST(Caps, OfMoreSidesAreCounted) {
+    const CapRun run = capOnDevice({ringOf(HUGE_FACE + 1, 2'000'000), ringOf(3)}, kCapBases[0], Through::AllInTurn);
+    EXPECT_EQ(run.bad, 1u);
+    EXPECT_TRUE(run.triangles[0].empty());
+    EXPECT_EQ(run.triangles[1].size(), 1u);
+}
+
+// A ray to the right from the corner of one hole runs along the side of the next. Whatever order the sides come in.
+TEST(SmallCaps, OfHolesInARow) {
+    std::mt19937 random(1);
+    const CapLoop outline = squareAt(0, 0, 1000);
+    std::vector<CapLoop> row = {outline}, rows = {outline}; // level, and one up or down
+    for (int32_t k = 0; k < 3; ++k)
+        row.push_back(reversed(squareAt(550 * k - 600, 0, 100)));
+    for (int32_t k = 0; k < 25; ++k)
+        rows.push_back(reversed(squareAt(k % 5 * 300 - 600, k / 5 * 300 - 600 + k % 2, 80)));
+    std::vector<CapPolygon> polygons = {polygonOf(row), polygonOf(rows)};
+    for (uint32_t order = 0; order < 25; ++order) {
+        for (CapPolygon& polygon : polygons) {
+            polygon.may_be_flat = true;
+            std::shuffle(polygon.segments.begin(), polygon.segments.end(), random);
+        }
+        expectCapped(polygons);
+    }
+}
+
+// Where one loop is done rounds before another.
+TEST(SmallCaps, HaveNoTriangleThatNamesACornerTwice) {
+    std::vector<CapLoop> squares;
+    for (int32_t k = 0; k < 30; ++k)
+        squares.push_back(squareAt(k % 6 * 100, k / 6 * 100, 10 + k));
+    for (const Through kernel : {Through::Large, Through::Huge}) {
+        EXPECT_EQ(capOnDevice({polygonOf({kEll, squareAt(25, 20, 9)})}, kCapBases[0], kernel).collapsed, 0u);
+        EXPECT_EQ(capOnDevice({polygonOf(squares)}, kCapBases[0], kernel).collapsed, 0u);
+    }
+}
+
+} // namespace
+} // namespace kernel_test
