@@ -258,25 +258,34 @@ bool inCone(ivec2 before, ivec2 c, ivec2 after, ivec2 x) {
     return convex ? between : !between;
 }
 
-// Of the loop's corners in the triangle (m, point hit, end of the edge hit), the one that leaves the ray least.
+// Whether corner a leaves the ray to the right from p less than corner b does; of those in one line the nearer.
+bool closerToRay(uint a, uint b, ivec2 p) {
+    if (a == NO_INDEX || b == NO_INDEX) return a != NO_INDEX;
+    ivec2 u = abs(at(a) - p), w = abs(at(b) - p);
+    int64_t side = int64_t(u.y) * int64_t(w.x) - int64_t(w.y) * int64_t(u.x);
+    bool nearer = u.x != w.x ? u.x < w.x : (u.y != w.y ? u.y < w.y : a < b);
+    return isZero(side) ? nearer : isNegative(side);
+}
+
+// Of the loop's corners in the triangle (m, point hit, end of the edge hit), the one that leaves the ray least, in
+// lane_pick[0].
 void visibleCorner(uint lane, uint m, uint loop, ivec2 hit, uint end) {
     ivec2 p = at(m), c = at(end);
     bool above = c.y > p.y;
-    int64_t key = kFar;
     uint pick = NO_INDEX;
     for (uint k = lane; k < node_total; k += LANES) {
         ivec2 q = at(k);
         bool ours = live(k) && rings[base + k].z == loop;
         bool inside = ours && q.x >= p.x && inTriangle(p, above ? hit : c, above ? c : hit, q);
         inside = inside && (q == p || inCone(at(previousOf(k)), q, at(nextOf(k)), p));
-        int64_t slope = (int64_t(abs(q.y - p.y)) << 31) / int64_t(max(q.x - p.x, 1));
-        int64_t rank = q == p ? int64_t(-1) : slope;
-        if (inside && (rank < key || (rank == key && abs(q.x - p.x) < abs(at(min(pick, node_total - 1u)).x - p.x)))) {
-            key = rank;
-            pick = k;
-        }
+        pick = inside && closerToRay(k, pick, p) ? k : pick;
     }
-    reduceLowest(lane, key, pick);
+    lane_pick[lane] = pick;
+    barrier();
+    for (uint width = LANES / 2u; width > 0u; width >>= 1) {
+        if (lane < width && closerToRay(lane_pick[lane + width], lane_pick[lane], p)) lane_pick[lane] = lane_pick[lane + width];
+        barrier();
+    }
 }
 
 void bridgeHoles(uint lane) {
@@ -369,11 +378,11 @@ void main() {
         barrier();
         for (uint k = lane; k < node_total; k += LANES) {
             if (live(k)) {
+                nodes[base + k].w = ALIVE;
                 if (nextOf(k) == previousOf(k) || nextOf(k) == k) {
                     rings[base + k].w = 1u; // two corners left: nothing between them
                 } else {
                     rings[base + k].w = 0u;
-                    nodes[base + k].w = ALIVE;
                     atomicAdd(alive_total, 1u);
                     if (turn(at(previousOf(k)), at(k), at(nextOf(k))) <= 0) reflex_list[atomicAdd(reflex_total, 1u)] = k;
                 }

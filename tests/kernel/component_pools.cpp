@@ -47,14 +47,17 @@ Judged judgeOnDevice(const std::vector<Component>& components, float grid_step) 
     const engine::Buffer start = bufferOf(pools.start), order = bufferOf(pools.order), pieces = bufferOf(pools.pieces);
     const engine::Buffer sources = bufferOf(pools.sources), positions = bufferOf(pools.positions);
     const engine::Buffer records = blankBuffer<brittle::FragmentRecord>(n), fates = blankBuffer<Word2>(n);
+    const engine::Buffer cavities = blankBuffer<uint32_t>(n), ordered = blankBuffer<uint32_t>(n);
     onDevice([&](engine::Commands& commands) {
         commands.dispatchGroups(kernel("mass_properties"), n, engine::NoPush{},
                                 {counts.words, start, order, pieces, sources, positions, records});
-        commands.dispatch(kernel("decide_fates"), n, grid_step,
-                          {counts.words, start, order, pieces, positions, records, fates});
+        commands.dispatch(kernel("decide_fates"), n, grid_step, {counts.words, records, fates, cavities});
+        counts.publish(commands, COUNT_CAVITIES, n);
+        commands.dispatchIndirect(kernel("nest_cavities"), counts.groupsOf(COUNT_CAVITIES), engine::NoPush{},
+                                  {counts.words, cavities, start, order, pieces, positions, records, fates, ordered});
     });
     return {valuesOf<brittle::FragmentRecord>(records, n), valuesOf<Word2>(fates, n), counts[STATUS_DISSOLVED],
-            counts[STATUS_CAVITIES], counts[STATUS_BAD_UNION]};
+            counts[COUNT_CAVITIES], counts[STATUS_BAD_UNION]};
 }
 
 } // namespace kernel_test

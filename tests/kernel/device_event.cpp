@@ -70,6 +70,7 @@ void DeviceEvent::prepare() {
     grid_ = valueOf(brittle::makeEventGrid(solid_.mesh, local_sites_, count));
     if (local_sites_.empty()) columns_ = brittle::makeColumns(solid_.mesh, grid_);
     capacity_ = brittle::estimateCapacities(solid_.mesh, solid_.topology, grid_, count);
+    capacity_.emit_window = 1 << 20;
 }
 
 void DeviceEvent::recordOnce(Until until) {
@@ -85,7 +86,7 @@ void DeviceEvent::recordOnce(Until until) {
         clear(commands);
         upload(commands, staging);
         brittle::Recorder recorder(commands, kernels(), buffers_.counts, buffers_.args);
-        recordUntil({solid_.mesh, options_, grid_, columns_, capacity_, buffers_, pools_, recorder}, until);
+        recordUntil({solid_.mesh, options_, grid_, columns_, capacity_, buffers_, pools_, recorder, 7500}, until);
         EXPECT_TRUE(recorder.status().has_value());
     });
     words_ = read<uint32_t>(buffers_.counts, STATUS_WORDS);
@@ -116,14 +117,11 @@ void DeviceEvent::upload(engine::Commands& commands, engine::Buffer& staging) co
     upload.copy(commands, staging);
 }
 
-// What the kernels count up in has to begin at 0; everything else holds a pattern, so that no kernel leans on zeros.
+// As before an upload; everything else holds a pattern, so that no kernel leans on zeros that its stage has not written.
 void DeviceEvent::clear(engine::Commands& commands) const {
     const brittle::EventBuffers& b = buffers_;
     commands.fill(arena_->buffer(), 0xcdcdcdcd);
-    for (const engine::BufferView& view :
-         {b.counts, b.args, b.placed, b.raw_sites, b.site_table, b.bin_counts, b.bin_cursors, b.pair_table, b.round_bounds,
-          b.triangle_polygons, b.triangle_cursors, b.point_table, b.edge_triple_counts, b.edge_triple_cursors, b.edge_sums,
-          b.face_counts, b.face_cursors, b.edge_table})
+    for (const engine::BufferView& view : {b.counts, b.args, b.placed, b.raw_sites})
         commands.fill(view, 0);
 }
 

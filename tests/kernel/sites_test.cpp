@@ -111,10 +111,11 @@ TEST(SmallSites, AtOnePlaceAreWeldedToTheFirstWhicheverComesFirst) {
         Counts counts;
         const engine::Buffer in = bufferOf(points), table = bufferOf(std::vector<uint32_t>(4096));
         const engine::Buffer slots = blankBuffer<uint32_t>(count), welded = blankBuffer<uint32_t>(count);
+        const engine::Buffer shared = blankBuffer<uint32_t>(count);
         const auto weld = [&](engine::Commands& commands) {
             commands.dispatch(kernel("weld_sites"), count, std::array<uint32_t, 3>{count, NO_INDEX, 4095},
                               {counts.words, in, table, slots});
-            commands.dispatch(kernel("resolve_points"), count, Word2{count, NO_INDEX}, {counts.words, table, slots, welded});
+            commands.dispatch(kernel("resolve_points"), count, Word2{count, NO_INDEX}, {counts.words, table, slots, welded, shared});
         };
         onDevice(weld);
         EXPECT_EQ(valuesOf<uint32_t>(welded, count), expected);
