@@ -208,7 +208,7 @@ TEST(SmallIslands, OfFacesInBisectorsAreClosed) {
     }
 }
 
-// Both sites on the ring's axis: their bisector cuts it into pieces, several to a cell.
+// The middle cell holds two stretches of the ring, which do not touch.
 TEST(Islands, OfOneCellAreSeveralPieces) {
     const FractureOptions options{0, 0, {{0, 0, 0}, {.9, .1, 0}, {-.9, -.1, 0}, {0, 0, 5}}};
     expectIslands(solidOf("ring"), options);
