@@ -93,6 +93,7 @@ std::vector<double> partVolumes(const Welder& welder, const std::vector<Indices>
         parts[root(t)].push_back({welder.position(i[0]), welder.position(i[1]), welder.position(i[2])});
     }
     std::vector<double> volumes;
+    volumes.reserve(parts.size());
     for (const auto& [ignored, part] : parts)
         volumes.push_back(volumeOf(part));
     return volumes;

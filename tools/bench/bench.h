@@ -19,6 +19,9 @@ struct BenchOptions {
     std::vector<uint32_t> cell_counts = {100, 1'000, 10'000, 100'000}; // sites in a cube
     std::vector<uint32_t> shatter_counts = {10, 100, 1'000};           // sites in the bumpy sphere
     uint32_t sphere_level = 5;                                         // 20 * 4^level triangles
+    std::vector<uint32_t> growth_levels = {3, 4, 5, 6, 7};             // of the sphere, for time against triangles
+    uint32_t growth_sites = 100;
+    uint32_t startup_rounds = 3;
     uint32_t peer_shatter_limit = 100;                                 // CGAL runs up to here
     uint32_t rounds = 5;
     uint64_t seed = 1;
@@ -40,12 +43,20 @@ struct ShatterRow {
     std::vector<std::pair<std::string, double>> stages; // device time, in order
 };
 
+struct StartupRow {
+    double cold_ms = 0, warm_ms = 0; // a process that breaks 1280 triangles into 10 cells, without and with the driver's cache
+};
+
 // Called with one line before each step.
 using Progress = std::function<void(const std::string&)>;
 
 engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const BenchOptions& options, const Progress& progress);
 engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, const BenchOptions& options,
                                                      const Progress& progress);
+
+// The same number of sites in spheres of ever more triangles.
+engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options, const Progress& progress);
+engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none
 

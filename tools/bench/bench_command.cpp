@@ -60,8 +60,16 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!cells) return cells.error();
     const auto shatters = bench::benchShatter(device, options, progress);
     if (!shatters) return shatters.error();
-    return Json{{"device", device.name()},  {"driver", device.driver()}, {"cores", std::thread::hardware_concurrency()},
-                {"rounds", options.rounds}, {"cells", toJson(*cells)},   {"shatter", toJson(*shatters)}};
+    const auto growth = bench::benchGrowth(device, options, progress);
+    if (!growth) return growth.error();
+    Json report = {{"device", device.name()},  {"driver", device.driver()},   {"cores", std::thread::hardware_concurrency()},
+                   {"rounds", options.rounds}, {"cells", toJson(*cells)},     {"shatter", toJson(*shatters)},
+                   {"growth", toJson(*growth)}};
+    if (options.startup_rounds == 0) return report;
+    const auto startup = bench::benchStartup(device, options, progress);
+    if (!startup) return startup.error();
+    report["startup"] = {{"cold_ms", startup->cold_ms}, {"warm_ms", startup->warm_ms}};
+    return report;
 }
 
 int write(const Json& report, const std::string& path) {
@@ -76,6 +84,10 @@ int write(const Json& report, const std::string& path) {
 int runBench(Options options) {
     if (options.cells_only) options.bench.shatter_counts.clear();
     if (options.shatter_only) options.bench.cell_counts.clear();
+    if (options.cells_only || options.shatter_only) {
+        options.bench.growth_levels.clear();
+        options.bench.startup_rounds = 0;
+    }
     auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
     const auto report = measure(**device, options.bench);

@@ -44,13 +44,13 @@ ShatterRow rowOf(uint32_t count, size_t triangles, const Samples& samples) {
 }
 
 engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& model, uint32_t count,
-                                  const BenchOptions& options) {
+                                  const BenchOptions& options, bool with_peer) {
     const std::vector<Point> sites = uniformSites(count, options.seed);
     Samples warm_up, samples;
     if (auto done = runOurs(fracture, model, sites, warm_up); !done) return done.error();
     for (uint32_t round = 0; round < options.rounds; ++round) {
         if (auto done = runOurs(fracture, model, sites, samples); !done) return done.error();
-        if (count > options.peer_shatter_limit) continue;
+        if (!with_peer || count > options.peer_shatter_limit) continue;
         if (const auto peer = cgalShatter(options.sphere_level, count, options.seed)) samples.cgal.push_back(peer->ms);
     }
     return samples;
@@ -67,9 +67,25 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
     std::vector<ShatterRow> rows;
     for (const uint32_t count : options.shatter_counts) {
         progress("whole shatter into " + std::to_string(count) + " cells");
-        const auto samples = alternate(**fracture, *model, count, options);
+        const auto samples = alternate(**fracture, *model, count, options, true);
         if (!samples) return samples.error();
         rows.push_back(rowOf(count, model->mesh.triangles.size(), *samples));
+    }
+    return rows;
+}
+
+engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options,
+                                                    const Progress& progress) {
+    auto fracture = brittle::Fracture::create(device);
+    if (!fracture) return fracture.error();
+    std::vector<ShatterRow> rows;
+    for (const uint32_t level : options.growth_levels) {
+        auto model = prepared(bumpySphere(level));
+        if (!model) return model.error();
+        progress("whole shatter of " + std::to_string(model->mesh.triangles.size()) + " triangles");
+        const auto samples = alternate(**fracture, *model, options.growth_sites, options, false);
+        if (!samples) return samples.error();
+        rows.push_back(rowOf(options.growth_sites, model->mesh.triangles.size(), *samples));
     }
     return rows;
 }
