@@ -186,7 +186,7 @@ void takePieces(const Input& in, Taker& take) {
     b.parents = take.words(n);
     b.suspects = take.words(c.caps);
     b.flap_table = take.words(4ull * c.flapTable());
-    b.flap_slots = take.words(c.flaps ? 2ull * c.caps : 1);
+    b.flap_slots = take.words(c.rare.flaps ? 2ull * c.caps : 1);
     b.edge_table = take.words(c.edgeTable());
     b.flags = take.quads(n);
     b.flag_offsets = take.quads(n + 1);

@@ -39,10 +39,13 @@ public:
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
+        capacity.rare = met_.joined(capacity.rare);
         for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
             auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);
             if (!outcome) return outcome.error();
-            if (!capacity.grow(outcome->status.data())) {
+            const bool again = capacity.grow(outcome->status.data());
+            met_ = capacity.rare;
+            if (!again) {
                 auto checked = checkStatus(outcome->status);
                 if (!checked) return checked.error();
                 outcome->result.setup_ms = millisecondsSince(start) - outcome->result.total_ms;
@@ -174,6 +177,7 @@ private:
     engine::Device& device_;
     engine::KernelLibrary kernels_;
     engine::KernelWarmup warmup_;
+    Capacities::Rare met_; // by earlier events: recorded from the start, since a second attempt costs more than idle dispatches
 };
 
 } // namespace

@@ -45,7 +45,7 @@ Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const Eve
 uint32_t Capacities::siteTable() const { return tableSize(sites); }
 uint32_t Capacities::pairTable() const { return tableSize(pairs); }
 uint32_t Capacities::pointTable() const { return tableSize(points()); }
-uint32_t Capacities::flapTable() const { return flaps ? tableSize(uint64_t{2} * caps) : 1; }
+uint32_t Capacities::flapTable() const { return rare.flaps ? tableSize(uint64_t{2} * caps) : 1; }
 uint32_t Capacities::edgeTable() const { return tableSize(uint64_t{3} * pieces / 2); }
 
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count) {
@@ -72,7 +72,7 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.intervals = size(c.voronoi_edges + c.triples * 0.6);
     c.segments = size(3.0 * c.intervals + 1.2 * c.crossings + 1.5 * c.triples);
     c.caps = size(0.62 * c.segments + 1024);
-    c.exact_cells = site_count > 256;
+    c.rare.exact_cells = site_count > 256;
     c.pieces = c.triangles + c.fans + 2 * c.caps;
     c.components = size(std::min<double>(c.pieces, 6 * n + 0.1 * c.triangles + 16384));
     c.fragments = c.components;
@@ -96,12 +96,12 @@ bool takeUp(bool& recorded, bool met) {
 
 bool Capacities::grow(const uint32_t* status) {
     const uint32_t* needed = status + STATUS_NEEDED;
-    bool more = takeUp(exact_cells, status[COUNT_EXACT_SMALL] != 0);
-    more |= takeUp(medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
-    more |= takeUp(large_cells, status[COUNT_EXACT_MEDIUM] != 0); // who needs the one often needs the other
-    more |= takeUp(huge_faces, status[COUNT_HUGE_FACES] != 0);
-    more |= takeUp(flaps, status[COUNT_SUSPECTS] != 0);
-    more |= takeUp(cavities, status[COUNT_CAVITIES] != 0);
+    bool more = takeUp(rare.exact_cells, status[COUNT_EXACT_SMALL] != 0);
+    more |= takeUp(rare.medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
+    more |= takeUp(rare.large_cells, status[COUNT_EXACT_MEDIUM] != 0); // who needs the one often needs the other
+    more |= takeUp(rare.huge_faces, status[COUNT_HUGE_FACES] != 0);
+    more |= takeUp(rare.flaps, status[COUNT_SUSPECTS] != 0);
+    more |= takeUp(rare.cavities, status[COUNT_CAVITIES] != 0);
     if (status[STATUS_SIDES] > sides_per_polygon && sides_per_polygon < MOST_SIDES) {
         sides_per_polygon = MOST_SIDES;
         more = true;

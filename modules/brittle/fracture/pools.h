@@ -24,7 +24,13 @@ struct Capacities {
     uint32_t sides_per_polygon = USUAL_SIDES;
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
-    bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, cavities = false;
+    struct Rare {
+        bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, cavities = false;
+        Rare joined(const Rare& other) const {
+            return {exact_cells || other.exact_cells, medium_cells || other.medium_cells, large_cells || other.large_cells,
+                    huge_faces || other.huge_faces,   flaps || other.flaps,               cavities || other.cavities};
+        }
+    } rare;
 
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
     // Slots of the hash tables: powers of two, at most half full.

@@ -108,7 +108,7 @@ void recordTriangulation(const Event& e) {
     r.runGroups("cap_faces_large", r.groupsOf(COUNT_LARGE_FACES), engine::NoPush{},
                 {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points, b.loose_caps,
                  b.cap_counts, b.large_faces, b.nodes, b.rings, b.loops});
-    if (c.huge_faces)
+    if (c.rare.huge_faces)
         r.runGroups("cap_faces_huge", r.groupsOf(COUNT_HUGE_FACES), engine::NoPush{},
                 {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points, b.loose_caps,
                  b.cap_counts, b.huge_faces, b.nodes, b.rings, b.loops});

@@ -48,9 +48,9 @@ void recordCutting(const Event& e) {
     e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
     e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
     e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
-    recordExact(e, "cut_cells_exact", e.capacity.exact_cells, 0);
-    recordExact(e, "cut_cells_exact_medium", e.capacity.medium_cells, 1);
-    recordExact(e, "cut_cells_exact_large", e.capacity.large_cells, 2);
+    recordExact(e, "cut_cells_exact", e.capacity.rare.exact_cells, 0);
+    recordExact(e, "cut_cells_exact_medium", e.capacity.rare.medium_cells, 1);
+    recordExact(e, "cut_cells_exact_large", e.capacity.rare.large_cells, 2);
 }
 
 void recordPacking(const Event& e) {

@@ -83,7 +83,7 @@ void recordIslands(const Event& e) {
     r.commands().beginLabel("split_islands");
     r.clear({b.edge_table});
     recordPieces(e);
-    if (c.flaps) recordFlaps(e);
+    if (c.rare.flaps) recordFlaps(e);
     uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
     r.run("unite_triangles", Length::counted(COUNT_TRIANGLES), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
     r.run("flag_components", Length::counted(COUNT_TRIANGLES), engine::NoPush{}, {r.counts(), b.pieces, b.parents, b.flags});
@@ -104,7 +104,7 @@ void recordMassProperties(const Event& e) {
                 {r.counts(), b.component_start, b.values, b.pieces, b.sources, b.positions, b.records});
     r.run("decide_fates", Length::counted(COUNT_COMPONENTS), e.grid.step, {r.counts(), b.records, b.fates, b.cavities});
     r.publish(COUNT_CAVITIES, e.capacity.components);
-    if (e.capacity.cavities)
+    if (e.capacity.rare.cavities)
         r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), engine::NoPush{},
                     {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates, b.ordered_cavities});
     r.commands().endLabel();
