@@ -25,7 +25,8 @@ void compileOnTwin(const std::stop_token& stop, const std::string& name, std::sp
                    const std::vector<std::string_view>& kernels) {
     auto twin = Device::create({.select = name});
     if (!twin) return;
-    auto buffer = Buffer::create(**twin, (kMaxBindings + 1) * kViewBytes, BufferDomain::Device, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "warm-up");
+    auto buffer = Buffer::create(**twin, (kMaxBindings + 1) * kViewBytes, BufferDomain::Device,
+                                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "warm-up");
     if (!buffer) return;
     KernelLibrary library(**twin, modules);
     for (const std::string_view kernel : kernels) {
@@ -39,9 +40,8 @@ void compileOnTwin(const std::stop_token& stop, const std::string& name, std::sp
 KernelWarmup::KernelWarmup(Device& device, KernelLibrary& library, std::vector<std::string_view> names) {
     if (device.gpuAssistedValidation()) return; // the layer's own work on every kernel would be done twice
     if (device.isCpu()) {
-        thread_ = std::jthread([device_name = device.name(), modules = library.modules(), names = std::move(names)](const std::stop_token& stop) {
-            compileOnTwin(stop, device_name, modules, names);
-        });
+        thread_ = std::jthread([device_name = device.name(), modules = library.modules(), names = std::move(names)](
+                                   const std::stop_token& stop) { compileOnTwin(stop, device_name, modules, names); });
         return;
     }
     thread_ = std::jthread([&library, names = std::move(names)] {

@@ -1,9 +1,9 @@
 #include "engine/reflection.h"
 
 #include <algorithm>
-#include <spirv/unified1/spirv.hpp>
 #include <map>
 #include <set>
+#include <spirv/unified1/spirv.hpp>
 #include <string_view>
 
 namespace engine {

@@ -4,6 +4,7 @@
 #include "lib/kernel.glsl"
 #include "lib/sum.glsl"
 #include "shared/fragment_record.h"
+#include "shared/scene.h"
 
 FLAT_KERNEL;
 READS(0, uint, counts);
@@ -11,19 +12,22 @@ READS(1, FragmentRecord, records);
 READS(2, uvec2, fates);
 READS(3, uvec4, demand_offsets);
 READS(4, uvec4, shares);
-WRITES(5, uint, draw_commands); // indexCount, instanceCount, firstIndex, vertexOffset, firstInstance
-WRITES(6, float, bounds);
+WRITES(5, DrawCommand, draw_commands); // two a fragment: outer, inner
+WRITES(6, Bounds, bounds);
 WRITES(7, FragmentRecord, fragments);
-WRITES(8, mat4, matrices);
-WRITES(9, float, objects);      // position, velocity, ... : 24 words, see shared/scene.h
+WRITES(8, ObjectMatrix, matrices);
+WRITES(9, ObjectState, objects);
 READS(10, uint, ordered_cavities);
 
-void command(uint at, uint count, uint first, uint vertex, uint instance) {
-    draw_commands[5u * at] = count;
-    draw_commands[5u * at + 1u] = count > 0u ? 1u : 0u;
-    draw_commands[5u * at + 2u] = first;
-    draw_commands[5u * at + 3u] = vertex;
-    draw_commands[5u * at + 4u] = instance;
+void draw(uint at, uint count, uint first, uint vertex) {
+    draw_commands[at] = DrawCommand(count, count > 0u ? 1u : 0u, first, int(vertex), at);
+}
+
+// At rest where the model was; what it weighs is for those who know its material.
+void placeObject(uint f, vec3 balance) {
+    const float zeros3[3] = float[3](0.0, 0.0, 0.0);
+    objects[f] = ObjectState(float[3](balance.x, balance.y, balance.z), 0.0, float[4](0.0, 0.0, 0.0, 0.0), zeros3, 0.0, zeros3, 0u,
+                             float[6](0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0u, 0u);
 }
 
 FragmentRecord withoutCavities(uint c, FragmentRecord r) {
@@ -49,16 +53,12 @@ void main() {
     uint f = at.x;
     uvec2 sizes = shares[c].zw;
     FragmentRecord r = withoutCavities(c, records[c]);
-    command(2u * f, 3u * sizes.x, 3u * at.y, 3u * at.y, 2u * f);
-    command(2u * f + 1u, 3u * sizes.y, 3u * (at.y + sizes.x), 3u * at.y, 2u * f + 1u);
-    for (uint k = 0u; k < ROLLED(3); k++) {
-        bounds[6u * f + k] = r.low[k];
-        bounds[6u * f + 3u + k] = r.high[k];
-    }
-    matrices[f] = mat4(1.0);
+    draw(2u * f, 3u * sizes.x, 3u * at.y, 3u * at.y);
+    draw(2u * f + 1u, 3u * sizes.y, 3u * (at.y + sizes.x), 3u * at.y);
+    bounds[f] = Bounds(float[3](r.low.x, r.low.y, r.low.z), float[3](r.high.x, r.high.y, r.high.z));
+    matrices[f].model = mat4(1.0);
     r.range = uvec4(f, at.y, sizes);
     r.fate = uvec4(fates[c], r.fate.zw);
     fragments[f] = r;
-    for (uint k = 0u; k < ROLLED(24); k++) objects[24u * f + k] = 0.0;
-    for (uint k = 0u; k < ROLLED(3); k++) objects[24u * f + k] = r.balance[k];
+    placeObject(f, r.balance.xyz);
 }

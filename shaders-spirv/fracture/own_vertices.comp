@@ -28,7 +28,7 @@ void main() {
     uint at = bin_start[uint((b.z * bins.y + b.y) * bins.x + b.x)];
     uint own = uint(bin_sites[min(at, counts[COUNT_SITES] - 1u)].w);
     bool moved = true, tied = false;
-    uint budget = 50000u;
+    uint budget = MOST_TURNS;
     for (uint step = 0u; step < 8192u && moved && budget > 0u; step++) {
         ivec3 qo = sites[own].xyz, qb = qo;
         uint best = own, last = cell_offsets[own + 1u].x;
@@ -41,7 +41,7 @@ void main() {
                 best = j;
                 qb = qj;
             }
-            budget--;
+            budget -= min(budget, 1u);
         }
         moved = best != own;
         own = best;

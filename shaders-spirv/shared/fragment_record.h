@@ -15,7 +15,7 @@ using RecordUint4 = uint32_t[4];
 
 struct FragmentRecord {
     RecordFloat4 measure;  // volume, area, outer area, perimeter of all triangles; model units
-    RecordFloat4 balance;  // center of mass,// relative to the mesh's center; w unused
+    RecordFloat4 balance;  // center of mass, relative to the mesh's center; w unused
     RecordFloat4 low;      // bounds, relative to the mesh's center
     RecordFloat4 high;
     RecordUint4 fate;      // FATE_*, the component it belongs to, cell, unused

@@ -57,6 +57,12 @@ CapPolygon combOf(int32_t teeth) {
 CapLoop squareAt(int32_t x, int32_t y, int32_t half) {
     return {{x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
 }
+std::vector<CapLoop> thirtySquares() {
+    std::vector<CapLoop> squares(30);
+    for (int32_t k = 0; k < 30; ++k)
+        squares[static_cast<size_t>(k)] = squareAt(k % 6 * 100, k / 6 * 100, 10 + k);
+    return squares;
+}
 CapLoop reversed(CapLoop loop) {
     std::reverse(loop.begin(), loop.end());
     return loop;
@@ -120,9 +126,7 @@ TEST(SmallCaps, OfHolesAndIslands) {
 }
 
 TEST(SmallCaps, OfSeveralLoops) {
-    std::vector<CapLoop> squares;
-    for (int32_t k = 0; k < 30; ++k)
-        squares.push_back(squareAt(k % 6 * 100, k / 6 * 100, 10 + k));
+    const std::vector<CapLoop> squares = thirtySquares();
     expectCapped({polygonOf({squares[0], squares[1]}), polygonOf(squares), polygonOf({kEll, squareAt(25, 20, 9)})});
 }
 
@@ -201,9 +205,7 @@ TEST(SmallCaps, OfHolesInARow) {
 
 // Where one loop is done rounds before another.
 TEST(SmallCaps, HaveNoTriangleThatNamesACornerTwice) {
-    std::vector<CapLoop> squares;
-    for (int32_t k = 0; k < 30; ++k)
-        squares.push_back(squareAt(k % 6 * 100, k / 6 * 100, 10 + k));
+    const std::vector<CapLoop> squares = thirtySquares();
     for (const Through kernel : {Through::Large, Through::Huge}) {
         EXPECT_EQ(capOnDevice({polygonOf({kEll, squareAt(25, 20, 9)})}, kCapBases[0], kernel).collapsed, 0u);
         EXPECT_EQ(capOnDevice({polygonOf(squares)}, kCapBases[0], kernel).collapsed, 0u);

@@ -107,14 +107,16 @@ TEST(SmallClipping, OfATriangleGivesPolygonsThatTileIt) {
 }
 
 // Nearly all polygons lie inside large triangles, and are found in many rounds.
-TEST(Clipping, OfLargeTrianglesGoesOnUntilTheyAreTiled) { expectClipped(solidOf("cube"), {1234, 2, {}}); }
-TEST(Clipping, OfAFineMesh) { expectClipped(solidOf("bumpy:4"), {100, 3, {}}); }
-TEST(Clipping, OfARing) { expectClipped(solidOf("ring"), {200, 3, {}}); }
+TEST(Clipping, OfLargeTrianglesGoesOnUntilTheyAreTiled) { expectClipped(solidOf("cube"), {.site_count = 1234, .seed = 2}); }
+TEST(Clipping, OfAFineMesh) { expectClipped(solidOf("bumpy:4"), {.site_count = 100, .seed = 3}); }
+TEST(Clipping, OfARing) { expectClipped(solidOf("ring"), {.site_count = 200, .seed = 3}); }
 
 FractureOptions latticeSites(double apart, uint32_t seed) {
     FractureOptions options;
-    for (uint32_t s = 0; s < 64; ++s)
-        options.given_sites.push_back({(s % 4 - 1.5) * apart, (s / 4 % 4 - 1.5) * apart, (s / 16 - 1.5) * apart});
+    for (int x = 0; x < 4; ++x)
+        for (int y = 0; y < 4; ++y)
+            for (int z = 0; z < 4; ++z)
+                options.given_sites.push_back({(x - 1.5) * apart, (y - 1.5) * apart, (z - 1.5) * apart});
     std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
     return options;
 }

@@ -38,7 +38,8 @@ TEST_P(CutCellsHard, GivesTheReferenceDiagram) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Small, CutCellsHard, testing::Values(7, 16, 24, 25));
-INSTANTIATE_TEST_SUITE_P(Quick, CutCellsHard, testing::Values(0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14, 15, 17, 18, 19, 20, 21, 22, 23, 26));
+INSTANTIATE_TEST_SUITE_P(Quick, CutCellsHard,
+                         testing::Values(0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14, 15, 17, 18, 19, 20, 21, 22, 23, 26));
 
 TEST(CutCells, OfUniformSitesOfManyCounts) {
     for (const uint32_t count : {1u, 2u, 63u, 64u, 65u, 1234u}) {

@@ -74,10 +74,12 @@ void expectAllocated(const Demand& demand) {
     }
     counts[COUNT_CAVITIES] = static_cast<uint32_t>(hollow.size());
     std::shuffle(hollow.begin(), hollow.end(), std::mt19937(n));
-    const engine::Buffer hollows = bufferOf(hollow), first = bufferOf(start), classes = bufferOf(class_offsets), fates = bufferOf(demand.fates);
+    const engine::Buffer hollows = bufferOf(hollow), first = bufferOf(start), classes = bufferOf(class_offsets),
+                         fates = bufferOf(demand.fates);
     const engine::Buffer asked = blankBuffer<Word4>(n), share = blankBuffer<Word4>(n);
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("allocate"), n, engine::NoPush{}, {counts.words, first, classes, fates, asked, share, hollows});
+        commands.dispatch(kernel("allocate"), n, engine::NoPush{},
+                          {counts.words, first, classes, fates, asked, share, hollows});
     });
     EXPECT_EQ(valuesOf<Word4>(asked, n), demands);
     EXPECT_EQ(valuesOf<Word4>(share, n), shares);

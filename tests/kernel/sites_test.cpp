@@ -115,7 +115,8 @@ TEST(SmallSites, AtOnePlaceAreWeldedToTheFirstWhicheverComesFirst) {
         const auto weld = [&](engine::Commands& commands) {
             commands.dispatch(kernel("weld_sites"), count, std::array<uint32_t, 3>{count, NO_INDEX, 4095},
                               {counts.words, in, table, slots});
-            commands.dispatch(kernel("resolve_points"), count, Word2{count, NO_INDEX}, {counts.words, table, slots, welded, shared});
+            commands.dispatch(kernel("resolve_points"), count, Word2{count, NO_INDEX},
+                              {counts.words, table, slots, welded, shared});
         };
         onDevice(weld);
         EXPECT_EQ(valuesOf<uint32_t>(welded, count), expected);

@@ -127,10 +127,10 @@ INSTANTIATE_TEST_SUITE_P(Small, FractureContract,
                          testing::Values(Case{"builtin:cube", 1}, Case{"builtin:cube", 2}, Case{"builtin:cube", 65},
                                          Case{"builtin:icosphere:2", 12}, Case{"ico4.obj", 10}, Case{"hundred_cubes.obj", 10}),
                          nameOf);
-constexpr const char* kModels[] = {"ico4.obj",        "spot_low_resolution.obj", "utah_teapot.stl", "bunny_hr.obj",
-                                   "fandisk.off",     "gearwheel.bin.stl",       "torus.obj",       "trefoil.obj",
-                                   "cheese.off",      "couplingdown.off",        "goblet-Vase.stl", "hundred_cubes.obj",
-                                   "armadillo.obj",   "thingi10k-908460.stl"};
+constexpr const char* kModels[] = {"ico4.obj",      "spot_low_resolution.obj", "utah_teapot.stl", "bunny_hr.obj",
+                                   "fandisk.off",   "gearwheel.bin.stl",       "torus.obj",       "trefoil.obj",
+                                   "cheese.off",    "couplingdown.off",        "goblet-Vase.stl", "hundred_cubes.obj",
+                                   "armadillo.obj", "thingi10k-908460.stl"};
 
 std::vector<Case> casesOf(std::initializer_list<uint32_t> site_counts, std::initializer_list<uint64_t> seeds) {
     std::vector<Case> cases;
@@ -242,7 +242,8 @@ TEST(FractureLimits, APolygonOfManySides) {
     const Model cube = modelFrom("builtin:cube");
     FractureOptions options;
     options.given_sites = {{0, 0, 0}};
-    for (int k = 0; k < 200; ++k) options.given_sites.push_back({0.3 * std::cos(0.0314159 * k), 0.3 * std::sin(0.0314159 * k), 0});
+    for (int k = 0; k < 200; ++k)
+        options.given_sites.push_back({0.3 * std::cos(0.0314159 * k), 0.3 * std::sin(0.0314159 * k), 0});
     expectContract(cube, options);
 }
 

@@ -55,15 +55,11 @@ Chunks readChunks(const std::string& path) {
 
 size_t componentSize(int type) {
     switch (type) {
-    case 5121:
-        return 1;
-    case 5123:
-        return 2;
+    case 5121: return 1;
+    case 5123: return 2;
     case 5125:
-    case kFloat:
-        return 4;
-    default:
-        throw std::runtime_error("GLB: component type " + std::to_string(type) + " is not read");
+    case kFloat: return 4;
+    default: throw std::runtime_error("GLB: component type " + std::to_string(type) + " is not read");
     }
 }
 

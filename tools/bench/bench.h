@@ -22,7 +22,7 @@ struct BenchOptions {
     std::vector<uint32_t> growth_levels = {3, 4, 5, 6, 7};             // of the sphere, for time against triangles
     uint32_t growth_sites = 100;
     uint32_t startup_rounds = 3;
-    uint32_t peer_shatter_limit = 100;                                 // CGAL runs up to here
+    uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
     uint64_t seed = 1;
 };
@@ -55,7 +55,8 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
                                                      const Progress& progress);
 
 // The same number of sites in spheres of ever more triangles.
-engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options, const Progress& progress);
+engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options,
+                                                    const Progress& progress);
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none

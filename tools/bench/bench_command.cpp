@@ -62,8 +62,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!shatters) return shatters.error();
     const auto growth = bench::benchGrowth(device, options, progress);
     if (!growth) return growth.error();
-    Json report = {{"device", device.name()},  {"driver", device.driver()},   {"cores", std::thread::hardware_concurrency()},
-                   {"rounds", options.rounds}, {"cells", toJson(*cells)},     {"shatter", toJson(*shatters)},
+    Json report = {{"device", device.name()},  {"driver", device.driver()}, {"cores", std::thread::hardware_concurrency()},
+                   {"rounds", options.rounds}, {"cells", toJson(*cells)},   {"shatter", toJson(*shatters)},
                    {"growth", toJson(*growth)}};
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);

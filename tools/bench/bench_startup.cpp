@@ -32,8 +32,9 @@ private:
 
 // Milliseconds; nothing where it failed. Mesa keeps its cache in `cache`; other drivers keep theirs where they always do.
 std::optional<double> runOnce(const fs::path& program, const fs::path& cache, const std::string& device) {
-    const std::string command = "MESA_SHADER_CACHE_DIR='" + cache.string() + "' BRITTLE_DEVICE='" + device + "' '" + program.string() +
-                                "' shatter builtin:icosphere:3 --sites 10 -o '" + (cache / "out.glb").string() + "' >/dev/null 2>&1";
+    const std::string command = "MESA_SHADER_CACHE_DIR='" + cache.string() + "' BRITTLE_DEVICE='" + device + "' '" +
+                                program.string() + "' shatter builtin:icosphere:3 --sites 10 -o '" +
+                                (cache / "out.glb").string() + "' >/dev/null 2>&1";
     const auto begin = std::chrono::steady_clock::now();
     if (std::system(command.c_str()) != 0) return std::nullopt; // NOLINT(cert-env33-c): our own program, our own arguments
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -46,10 +47,12 @@ engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptio
     const fs::path self = fs::read_symlink("/proc/self/exe", unreadable);
     std::vector<double> cold, warm;
     for (uint32_t round = 0; round < options.startup_rounds; ++round) {
-        progress("start of a process with an empty cache, " + std::to_string(round + 1) + " of " + std::to_string(options.startup_rounds));
+        progress("start of a process with an empty cache, " + std::to_string(round + 1) + " of " +
+                 std::to_string(options.startup_rounds));
         const TemporaryFolder folder;
         const auto first = runOnce(self, folder.path(), device.name()), second = runOnce(self, folder.path(), device.name());
-        if (!first || !second) return engine::Error{engine::ErrorCode::Internal, "the program could not run itself; try `brittle shatter`"};
+        if (!first || !second)
+            return engine::Error{engine::ErrorCode::Internal, "the program could not run itself; try `brittle shatter`"};
         cold.push_back(*first);
         warm.push_back(*second);
     }

@@ -10,14 +10,13 @@ namespace {
 constexpr double kSitesPerBin = 2.0;
 constexpr double kFarthestSite = 256.0; // in half diagonals of the mesh's box
 
-Int3 snapVertex(const EventGrid& grid, const Float3& p) {
-    return snapToGrid(grid, {p[0], p[1], p[2]});
-}
+Int3 snapVertex(const EventGrid& grid, const Float3& p) { return snapToGrid(grid, {p[0], p[1], p[2]}); }
 
 double farthestCoordinate(const Mesh& mesh) {
     float reach = 0;
     for (const Float3& p : mesh.positions)
-        for (float x : p) reach = std::max(reach, std::fabs(x));
+        for (float x : p)
+            reach = std::max(reach, std::fabs(x));
     return reach;
 }
 
@@ -45,10 +44,12 @@ void setBox(EventGrid& grid, const Mesh& mesh, std::span<const Double3> sites) {
             high[k] = std::max(high[k], p[k]);
         }
     };
-    for (const Float3& p : mesh.positions) extend(grid.mesh_low, grid.mesh_high, snapVertex(grid, p));
+    for (const Float3& p : mesh.positions)
+        extend(grid.mesh_low, grid.mesh_high, snapVertex(grid, p));
     grid.box_low = grid.mesh_low;
     grid.box_high = grid.mesh_high;
-    for (const Double3& s : sites) extend(grid.box_low, grid.box_high, snapToGrid(grid, s));
+    for (const Double3& s : sites)
+        extend(grid.box_low, grid.box_high, snapToGrid(grid, s));
     for (size_t k = 0; k < 3; k++) {
         grid.box_low[k] -= kGridMargin;
         grid.box_high[k] += kGridMargin;
@@ -75,7 +76,8 @@ double filledShare(const Mesh& mesh, const EventGrid& grid) {
                        static_cast<double>(a[1]) * (static_cast<double>(b[2]) * c[0] - static_cast<double>(b[0]) * c[2]) +
                        static_cast<double>(a[2]) * (static_cast<double>(b[0]) * c[1] - static_cast<double>(b[1]) * c[0]);
     }
-    for (size_t k = 0; k < 3; k++) box *= (grid.box_high[k] - grid.box_low[k] + 1.0) * static_cast<double>(grid.step);
+    for (size_t k = 0; k < 3; k++)
+        box *= (grid.box_high[k] - grid.box_low[k] + 1.0) * static_cast<double>(grid.step);
     return std::clamp(six_volumes / 6 / box, 1.0 / 32, 1.0);
 }
 
@@ -115,13 +117,15 @@ void setBins(EventGrid& grid, uint32_t site_count, double filled) {
 
 Int3 snapToGrid(const EventGrid& grid, const Double3& position) {
     Int3 p;
-    for (size_t k = 0; k < 3; k++) p[k] = static_cast<int32_t>(std::nearbyint(position[k] * grid.scale)) + kGridCenter;
+    for (size_t k = 0; k < 3; k++)
+        p[k] = static_cast<int32_t>(std::nearbyint(position[k] * grid.scale)) + kGridCenter;
     return p;
 }
 
 Double3 fromGrid(const EventGrid& grid, const Int3& position) {
     Double3 p;
-    for (size_t k = 0; k < 3; k++) p[k] = static_cast<double>(position[k] - kGridCenter) * static_cast<double>(grid.step);
+    for (size_t k = 0; k < 3; k++)
+        p[k] = static_cast<double>(position[k] - kGridCenter) * static_cast<double>(grid.step);
     return p;
 }
 
@@ -170,7 +174,8 @@ struct Raster {
     }
     uint64_t entries() const {
         uint64_t total = 0;
-        for (const Index3& t : mesh.triangles) cover(t, [&](size_t, int32_t, int32_t) { total++; });
+        for (const Index3& t : mesh.triangles)
+            cover(t, [&](size_t, int32_t, int32_t) { total++; });
         return total;
     }
 };
@@ -182,7 +187,8 @@ void chooseEdge(Raster& raster) {
     double least = std::max(wide, deep) / 1024;
     raster.setEdge(static_cast<int32_t>(std::ceil(std::max({1.0, per_column, least}))));
     // Long triangles lie under many columns; coarser ones keep the lists short.
-    while (raster.nx * raster.ny > 1 && raster.entries() > 8 * raster.mesh.triangles.size()) raster.setEdge(raster.edge * 2);
+    while (raster.nx * raster.ny > 1 && raster.entries() > 8 * raster.mesh.triangles.size())
+        raster.setEdge(raster.edge * 2);
 }
 
 } // namespace
@@ -201,14 +207,17 @@ TriangleColumns makeColumns(const Mesh& mesh, const EventGrid& grid) {
             columns.start[c + 1]++;
             heights[c] = {std::min(heights[c][0], low), std::max(heights[c][1], high)};
         });
-    for (size_t c = 0; c < count; c++) columns.start[c + 1] += columns.start[c];
+    for (size_t c = 0; c < count; c++)
+        columns.start[c + 1] += columns.start[c];
     columns.triangles.resize(columns.start[count]);
     std::vector<uint32_t> at(columns.start.begin(), columns.start.end() - 1);
     for (size_t t = 0; t < mesh.triangles.size(); t++)
-        raster.cover(mesh.triangles[t], [&](size_t c, int32_t, int32_t) { columns.triangles[at[c]++] = static_cast<uint32_t>(t); });
+        raster.cover(mesh.triangles[t],
+                     [&](size_t c, int32_t, int32_t) { columns.triangles[at[c]++] = static_cast<uint32_t>(t); });
     for (size_t c = 0; c < count; c++)
         if (columns.start[c + 1] > columns.start[c])
-            columns.occupied.push_back({static_cast<int32_t>(c) % raster.nx, static_cast<int32_t>(c) / raster.nx, heights[c][0], heights[c][1]});
+            columns.occupied.push_back(
+                {static_cast<int32_t>(c) % raster.nx, static_cast<int32_t>(c) / raster.nx, heights[c][0], heights[c][1]});
     return columns;
 }
 

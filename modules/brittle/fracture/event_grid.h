@@ -21,7 +21,9 @@ struct EventGrid {
     Int3 mesh_low{}, mesh_high{}; // of the mesh on the grid
     Int3 box_low{}, box_high{};   // mesh and sites never touch it
     Int4 bins{};                  // per axis; [3]: edge of a bin in grid steps
-    uint32_t binCount() const { return static_cast<uint32_t>(bins[0]) * static_cast<uint32_t>(bins[1]) * static_cast<uint32_t>(bins[2]); }
+    uint32_t binCount() const {
+        return static_cast<uint32_t>(bins[0]) * static_cast<uint32_t>(bins[1]) * static_cast<uint32_t>(bins[2]);
+    }
 };
 
 // Grid coordinates run from 0 to 2^24; the mesh's center lies at 2^23.
@@ -38,11 +40,11 @@ Double3 fromGrid(const EventGrid& grid, const Int3& position);
 
 // Triangles by the columns of an (x, y) raster that their boxes cover; the inside test looks along z in one column.
 struct TriangleColumns {
-    int32_t edge = 1;              // of a column, grid steps
+    int32_t edge = 1; // of a column, grid steps
     int32_t per_row = 1;
-    std::vector<uint32_t> start;   // first entry of each column, and the end
+    std::vector<uint32_t> start; // first entry of each column, and the end
     std::vector<uint32_t> triangles;
-    std::vector<Int4> occupied;    // x and y index, lowest and highest z of its triangles
+    std::vector<Int4> occupied; // x and y index, lowest and highest z of its triangles
 };
 
 TriangleColumns makeColumns(const Mesh& mesh, const EventGrid& grid);

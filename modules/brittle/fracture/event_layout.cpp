@@ -33,7 +33,8 @@ void takeKept(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     const Mesh& mesh = in.mesh;
     EventBuffers& b = in.b;
-    uint64_t longest = std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins}, uint64_t{c.voronoi_edges}});
+    uint64_t longest =
+        std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins}, uint64_t{c.voronoi_edges}});
     uint64_t points = c.points();
     b.counts = take.words(STATUS_WORDS);
     b.args = take.words(9ull * COUNT_TOTAL);
@@ -211,7 +212,8 @@ void takePieces(const Input& in, Taker& take) {
 
 } // namespace
 
-void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b) {
+void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
+            EventBuffers& b) {
     const Input in = {c, mesh, columns, b};
     Taker take(arena);
     takeKept(in, take);

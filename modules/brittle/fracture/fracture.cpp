@@ -31,9 +31,11 @@ struct Attempt {
 
 class FractureDevice final : public Fracture {
 public:
-    explicit FractureDevice(engine::Device& device) : device_(device), kernels_(device), warmup_(device, kernels_, kernelsToWarm()) {}
+    explicit FractureDevice(engine::Device& device)
+        : device_(device), kernels_(device), warmup_(device, kernels_, kernelsToWarm()) {}
 
-    engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options) override {
+    engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
+                                           const FractureOptions& options) override {
         auto start = Clock::now();
         auto prepared = prepare(mesh, options);
         if (!prepared) return prepared.error();
@@ -52,7 +54,8 @@ public:
                 return std::move(outcome->result);
             }
         }
-        return engine::Error{engine::ErrorCode::Capacity, "the event's pools still overflow after " + std::to_string(kMaxAttempts) +
+        return engine::Error{engine::ErrorCode::Capacity, "the event's pools still overflow after " +
+                                                              std::to_string(kMaxAttempts) +
                                                               " attempts; use fewer sites or a smaller mesh"};
     }
 
@@ -64,7 +67,9 @@ private:
     };
 
     // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit.
-    static uint32_t turnBudget(const engine::Device& device) { return device.isCpu() ? 60'000 / device.subgroupSize() : 1u << 20; }
+    static uint32_t turnBudget(const engine::Device& device) {
+        return device.isCpu() ? 60'000 / device.subgroupSize() : 1u << 20;
+    }
     // Triangles whose vertices one binding can hold; whole multiples of any alignment of views.
     static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
         uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
@@ -78,10 +83,12 @@ private:
         if (siteCount(options) == 0) return engine::Error{engine::ErrorCode::BadInput, "no sites: ask for at least one"};
         if (mesh.triangles.empty()) return engine::Error{engine::ErrorCode::BadInput, "the mesh has no triangles"};
         if (mesh.triangles.size() > kMostTriangles)
-            return engine::Error{engine::ErrorCode::Capacity, "the mesh has more than " + std::to_string(kMostTriangles) + " triangles; reduce it"};
+            return engine::Error{engine::ErrorCode::Capacity,
+                                 "the mesh has more than " + std::to_string(kMostTriangles) + " triangles; reduce it"};
         Prepared p;
         for (Double3 s : options.given_sites) {
-            for (size_t k = 0; k < 3; k++) s[k] -= mesh.center[k];
+            for (size_t k = 0; k < 3; k++)
+                s[k] -= mesh.center[k];
             p.local_sites.push_back(s);
         }
         auto grid = makeEventGrid(mesh, p.local_sites, siteCount(options));
@@ -92,7 +99,8 @@ private:
     }
 
     // Copies of the host's arrays live until the upload buffer is filled.
-    static void addMesh(Upload& upload, const Mesh& mesh, const MeshTopology& topology, std::vector<float>& attributes, const EventBuffers& b) {
+    static void addMesh(Upload& upload, const Mesh& mesh, const MeshTopology& topology, std::vector<float>& attributes,
+                        const EventBuffers& b) {
         attributes.reserve(5 * mesh.corner_normals.size());
         for (size_t k = 0; k < mesh.corner_normals.size(); k++) {
             attributes.insert(attributes.end(), mesh.corner_normals[k].begin(), mesh.corner_normals[k].end());
@@ -105,8 +113,10 @@ private:
         upload.add(std::span(std::as_const(attributes)), b.corner_attributes);
     }
 
-    static void addSites(Upload& upload, const Prepared& p, std::vector<Int3>& sites, std::vector<uint32_t>& placed, const EventBuffers& b) {
-        for (const Double3& s : p.local_sites) sites.push_back(snapToGrid(p.grid, s));
+    static void addSites(Upload& upload, const Prepared& p, std::vector<Int3>& sites, std::vector<uint32_t>& placed,
+                         const EventBuffers& b) {
+        for (const Double3& s : p.local_sites)
+            sites.push_back(snapToGrid(p.grid, s));
         placed.assign(sites.size(), 1);
         upload.add(std::span(std::as_const(sites)), b.raw_sites);
         upload.add(std::span(std::as_const(placed)), b.placed);
@@ -129,15 +139,16 @@ private:
         recordEmission(event);
     }
 
-    engine::Result<engine::ScratchArena> makeArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b) {
+    engine::Result<engine::ScratchArena> makeArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
+                                                   EventBuffers& b) {
         auto plan = engine::ScratchArena::create(device_, 256, "plan");
         if (!plan) return plan;
         layOut(*plan, c, mesh, columns, b);
         return engine::ScratchArena::create(device_, plan->peak(), "general buffer");
     }
 
-    engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options, const Prepared& p,
-                                    Capacities& capacity) {
+    engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options,
+                                    const Prepared& p, Capacities& capacity) {
         EventBuffers b;
         auto arena = makeArena(capacity, mesh, p.columns, b);
         if (!arena) return arena.error();

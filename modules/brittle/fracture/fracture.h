@@ -15,10 +15,10 @@
 namespace brittle {
 
 struct FractureOptions {
-    uint32_t site_count = 100;         // asked of the pattern; ignored where sites are given
+    uint32_t site_count = 100; // asked of the pattern; ignored where sites are given
     uint64_t seed = 1;
-    std::vector<Double3> given_sites;  // model space; empty: pattern `uniform`
-    bool only_cells = false;           // stop once the Voronoi cells are there: no fragments, for measuring
+    std::vector<Double3> given_sites; // model space; empty: pattern `uniform`
+    bool only_cells = false;          // stop once the Voronoi cells are there: no fragments, for measuring
 };
 
 struct FractureCounts {
@@ -30,10 +30,10 @@ struct FractureCounts {
 struct FractureResult {
     FragmentSet fragments;
     FractureCounts counts;
-    std::vector<Double3> sites;             // used, in model space: what Fragment::cell points into
-    std::vector<engine::Timing> timings;    // one per stage, milliseconds on the device
-    double total_ms = 0;                    // of the recorded work, wall clock
-    double setup_ms = 0;                    // making pipelines and buffers
+    std::vector<Double3> sites;          // used, in model space: what Fragment::cell points into
+    std::vector<engine::Timing> timings; // one per stage, milliseconds on the device
+    double total_ms = 0;                 // of the recorded work, wall clock
+    double setup_ms = 0;                 // making pipelines and buffers
 };
 
 class Fracture {
@@ -41,7 +41,8 @@ public:
     static engine::Result<std::unique_ptr<Fracture>> create(engine::Device& device);
     virtual ~Fracture() = default;
     // Errors: BadInput (no sites, sites too far away), Capacity (names the pool and what it lacked), Device.
-    virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options) = 0;
+    virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
+                                                   const FractureOptions& options) = 0;
 };
 
 } // namespace brittle

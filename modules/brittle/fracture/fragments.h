@@ -16,16 +16,16 @@ struct FragmentVertex {
 static_assert(sizeof(FragmentVertex) == 32);
 
 struct Fragment {
-    uint32_t cell = 0;              // index of its site among the sites used
-    uint32_t first_vertex = 0;      // added to every index, as vertexOffset of a draw command
+    uint32_t cell = 0;         // index of its site among the sites used
+    uint32_t first_vertex = 0; // added to every index, as vertexOffset of a draw command
     uint32_t vertex_count = 0;
-    uint32_t first_index = 0;       // outer triangles first, inner ones after them
+    uint32_t first_index = 0; // outer triangles first, inner ones after them
     uint32_t outer_index_count = 0;
     uint32_t inner_index_count = 0;
-    Double3 site = {0, 0, 0};       // model space
+    Double3 site = {0, 0, 0}; // model space
     double volume = 0;
-    Double3 centroid = {0, 0, 0};   // relative to FragmentSet::center
-    Float3 lower = {0, 0, 0};       // bounds, relative to FragmentSet::center
+    Double3 centroid = {0, 0, 0}; // relative to FragmentSet::center
+    Float3 lower = {0, 0, 0};     // bounds, relative to FragmentSet::center
     Float3 upper = {0, 0, 0};
 };
 

@@ -7,9 +7,7 @@
 namespace brittle {
 namespace {
 
-uint32_t tableSize(uint64_t entries) {
-    return static_cast<uint32_t>(std::bit_ceil(std::max<uint64_t>(2 * entries, 64)));
-}
+uint32_t tableSize(uint64_t entries) { return static_cast<uint32_t>(std::bit_ceil(std::max<uint64_t>(2 * entries, 64))); }
 
 struct Extents {
     double edge_length = 0, longest_edge = 0, area = 0, cell = 1;
@@ -20,7 +18,8 @@ Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const Eve
     Extents x;
     auto difference = [&](uint32_t a, uint32_t b) {
         Double3 d;
-        for (size_t k = 0; k < 3; k++) d[k] = (static_cast<double>(mesh.positions[b][k]) - mesh.positions[a][k]) * grid.scale;
+        for (size_t k = 0; k < 3; k++)
+            d[k] = (static_cast<double>(mesh.positions[b][k]) - mesh.positions[a][k]) * grid.scale;
         return d;
     };
     for (const auto& e : topology.edges) {
@@ -35,7 +34,8 @@ Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const Eve
         x.area += 0.5 * std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     }
     double volume = 1;
-    for (size_t k = 0; k < 3; k++) volume *= grid.mesh_high[k] - grid.mesh_low[k] + 1.0;
+    for (size_t k = 0; k < 3; k++)
+        volume *= grid.mesh_high[k] - grid.mesh_low[k] + 1.0;
     x.cell = std::cbrt(volume / site_count);
     return x;
 }

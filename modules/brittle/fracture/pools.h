@@ -25,10 +25,15 @@ struct Capacities {
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     struct Rare {
-        bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, cavities = false;
+        bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false,
+             cavities = false;
         Rare joined(const Rare& other) const {
-            return {exact_cells || other.exact_cells, medium_cells || other.medium_cells, large_cells || other.large_cells,
-                    huge_faces || other.huge_faces,   flaps || other.flaps,               cavities || other.cavities};
+            return {exact_cells || other.exact_cells,
+                    medium_cells || other.medium_cells,
+                    large_cells || other.large_cells,
+                    huge_faces || other.huge_faces,
+                    flaps || other.flaps,
+                    cavities || other.cavities};
         }
     } rare;
 
@@ -53,15 +58,18 @@ struct EventBuffers {
     // mesh
     View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, corner_attributes, grid_vertices;
     // sites
-    View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags, site_offsets;
+    View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags,
+        site_offsets;
     View sites, bin_counts, bin_start, bin_cursors, loose_sites, bin_sites;
     // cells
-    View raw, cell_raw, queue, store, cell_counts, cell_offsets, neighbors, corners, corner_info, vertex_sites, edge_sites, edge_ends;
+    View raw, cell_raw, queue, store, cell_counts, cell_offsets, neighbors, corners, corner_info, vertex_sites, edge_sites,
+        edge_ends;
     View face_cells;
     // classification and clipping
     View owners, edge_flags, edge_slot, mixed_edges, crossing_counts, crossing_offsets, crossings;
     View triangle_flags, triangle_slot, mixed_triangles, pairs, pair_table, pair_sides, pair_shape, round_bounds;
-    View triangle_polygons, triangle_polygon_offsets, triangle_cursors, loose_polygons, polygons, polygon_counts, polygon_offsets;
+    View triangle_polygons, triangle_polygon_offsets, triangle_cursors, loose_polygons, polygons, polygon_counts,
+        polygon_offsets;
     View polygon_sides, polygon_corners, triples, triple_signs;
     // places
     View points, positions, point_table, point_slots, welded, shared_points;
@@ -70,10 +78,13 @@ struct EventBuffers {
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
     View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_counts, cap_offsets, nodes, rings, loops;
     // pieces
-    View pieces, sources, parents, suspects, flap_table, flap_slots, edge_table, flags, flag_offsets, keys, values, other_keys, other_values, histogram, digit_offsets;
-    View components, component_start, records, fates, cavities, ordered_cavities, classes, class_offsets, demands, demand_offsets, shares;
+    View pieces, sources, parents, suspects, flap_table, flap_slots, edge_table, flags, flag_offsets, keys, values, other_keys,
+        other_values, histogram, digit_offsets;
+    View components, component_start, records, fates, cavities, ordered_cavities, classes, class_offsets, demands,
+        demand_offsets, shares;
 };
 
-void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b);
+void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
+            EventBuffers& b);
 
 } // namespace brittle

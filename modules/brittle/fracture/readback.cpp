@@ -15,7 +15,8 @@ struct Piece {
 
 engine::Result<void> fetch(engine::Device& device, std::span<const Piece> pieces) {
     VkDeviceSize total = 16;
-    for (const Piece& p : pieces) total += (p.bytes + 15) / 16 * 16;
+    for (const Piece& p : pieces)
+        total += (p.bytes + 15) / 16 * 16;
     auto buffer = engine::Buffer::create(device, total, engine::BufferDomain::Readback, 0, "readback");
     if (!buffer) return buffer.error();
     engine::Commands commands(device);
@@ -64,13 +65,15 @@ void fillCounts(const std::vector<uint32_t>& status, const FractureOptions& opti
     std::vector<bool> filled(c.sites_used, false);
     for (const Fragment& f : result.fragments.fragments)
         if (f.cell < filled.size()) filled[f.cell] = true;
-    for (bool some : filled) (some ? c.cells_ok : c.cells_empty)++;
+    for (bool some : filled)
+        (some ? c.cells_ok : c.cells_empty)++;
 }
 
 } // namespace
 
-engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mesh& mesh, const EventGrid& grid, const FractureOptions& options,
-                                               const EventBuffers& b, const ScenePools& scene, FractureResult& result) {
+engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mesh& mesh, const EventGrid& grid,
+                                               const FractureOptions& options, const EventBuffers& b, const ScenePools& scene,
+                                               FractureResult& result) {
     std::vector<uint32_t> status(STATUS_WORDS);
     const Piece first[] = {{b.counts, status.data(), 4ull * STATUS_WORDS}};
     if (auto ok = fetch(device, first); !ok) return ok.error();
@@ -88,10 +91,12 @@ engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mes
     if (auto ok = fetch(device, rest); !ok) return ok.error();
     for (const Int4& s : sites) {
         Double3 p = fromGrid(grid, {s[0], s[1], s[2]});
-        for (size_t k = 0; k < 3; k++) p[k] += mesh.center[k];
+        for (size_t k = 0; k < 3; k++)
+            p[k] += mesh.center[k];
         result.sites.push_back(p);
     }
-    for (const FragmentRecord& record : records) set.fragments.push_back(fragmentOf(record, result.sites));
+    for (const FragmentRecord& record : records)
+        set.fragments.push_back(fragmentOf(record, result.sites));
     fillCounts(status, options, result);
     return status;
 }
@@ -100,24 +105,33 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
     auto failed = [](const std::string& what) { return engine::Error{engine::ErrorCode::Internal, what}; };
     auto number = [&](uint32_t k) { return std::to_string(s[k]); };
     if (s[STATUS_UNPLACED] != 0)
-        return engine::Error{engine::ErrorCode::BadInput, number(STATUS_UNPLACED) + " sites found no place inside the model, which fills too little "
-                                                                                    "of its box; give the sites with --sites-file"};
+        return engine::Error{engine::ErrorCode::BadInput, number(STATUS_UNPLACED) +
+                                                              " sites found no place inside the model, which fills too little "
+                                                              "of its box; give the sites with --sites-file"};
     if (s[STATUS_CROWDED] != 0)
-        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_CROWDED) + " sites lie too close together for the spread of the others; leave some out"};
+        return engine::Error{engine::ErrorCode::Capacity,
+                             number(STATUS_CROWDED) +
+                                 " sites lie too close together for the spread of the others; leave some out"};
     if (s[STATUS_TOO_LONG] != 0)
-        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_TOO_LONG) + " edges or triangles of the model meet too many cells each; divide them, or use fewer sites"};
+        return engine::Error{engine::ErrorCode::Capacity,
+                             number(STATUS_TOO_LONG) +
+                                 " edges or triangles of the model meet too many cells each; divide them, or use fewer sites"};
     if (s[STATUS_BAD_CELLS] != 0)
-        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CELLS) + " cells have too many faces or neighbors to be cut; spread the sites"};
+        return engine::Error{engine::ErrorCode::Capacity,
+                             number(STATUS_BAD_CELLS) + " cells have too many faces or neighbors to be cut; spread the sites"};
     if (s[STATUS_BAD_CAP] != 0)
-        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CAP) + " cut faces have more than " + std::to_string(HUGE_FACE) +
+        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CAP) + " cut faces have more than " +
+                                                              std::to_string(HUGE_FACE) +
                                                               " edges or too many loops; use more sites or a coarser mesh"};
     if (s[STATUS_SIDES] > MOST_SIDES)
-        return engine::Error{engine::ErrorCode::Capacity, "a triangle has " + number(STATUS_SIDES) + " sides in one cell, at most " + std::to_string(MOST_SIDES) +
+        return engine::Error{engine::ErrorCode::Capacity, "a triangle has " + number(STATUS_SIDES) +
+                                                              " sides in one cell, at most " + std::to_string(MOST_SIDES) +
                                                               " can be held; spread the sites"};
     if (s[STATUS_BAD_CLIP] != 0) return failed(number(STATUS_BAD_CLIP) + " triangles could not be clipped");
     if (s[STATUS_BAD_LOOKUP] != 0) return failed(number(STATUS_BAD_LOOKUP) + " look-ups in the diagram failed");
     if (s[STATUS_BAD_DEPTH] != 0)
-        return failed(number(STATUS_BAD_DEPTH) + " Voronoi edges disagree with the surface; is the mesh closed and free of self-intersections?");
+        return failed(number(STATUS_BAD_DEPTH) +
+                      " Voronoi edges disagree with the surface; is the mesh closed and free of self-intersections?");
     if (s[STATUS_BAD_UNION] != 0 || s[STATUS_BAD_WELD] != 0) return failed("pieces could not be joined");
     if (s[STATUS_FAILED] != 0) return failed("the event failed without saying why");
     return {};

@@ -23,7 +23,8 @@ void Recorder::scan(Length length, engine::BufferView values, engine::BufferView
         uint32_t length, length_count, pad[2];
         Published published;
     } apply = {length.known, length.count, {0, 0}, published};
-    std::string_view first = four_channels ? "scan_reduce4" : "scan_reduce", second = four_channels ? "scan_apply4" : "scan_apply";
+    std::string_view first = four_channels ? "scan_reduce4" : "scan_reduce",
+                     second = four_channels ? "scan_apply4" : "scan_apply";
     if (length.count == NO_INDEX) {
         uint32_t blocks = (length.known + SCAN_BLOCK - 1) / SCAN_BLOCK;
         runGroups(first, blocks, reduce, {counts_, values, sums});
@@ -35,7 +36,8 @@ void Recorder::scan(Length length, engine::BufferView values, engine::BufferView
 }
 
 void Recorder::clear(Views views) {
-    for (const engine::BufferView& view : views) commands_.fill(view, 0);
+    for (const engine::BufferView& view : views)
+        commands_.fill(view, 0);
 }
 
 void Recorder::publish(uint32_t count, uint32_t capacity) {

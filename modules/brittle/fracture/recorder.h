@@ -53,8 +53,8 @@ public:
     }
 
     // offsets[k] = values[0] + ... + values[k - 1]; one more offset than values. Four channels: values are uvec4.
-    void scan(Length length, engine::BufferView values, engine::BufferView sums, engine::BufferView offsets, const Published& published,
-              bool four_channels = false);
+    void scan(Length length, engine::BufferView values, engine::BufferView sums, engine::BufferView offsets,
+              const Published& published, bool four_channels = false);
     void clear(Views views);
     // Makes a count that kernels built with atomics known to dispatches.
     void publish(uint32_t count, uint32_t capacity);

@@ -19,7 +19,8 @@ engine::Result<SceneBuffers> SceneBuffers::create(engine::Device& device, uint32
                              {&SceneBuffers::fragments, 96 * f, 0, "fragments"}};
     SceneBuffers scene;
     for (const Wanted& w : wanted) {
-        auto buffer = engine::Buffer::create(device, std::max<VkDeviceSize>(w.bytes, 256), engine::BufferDomain::Device, w.usage, w.name);
+        auto buffer =
+            engine::Buffer::create(device, std::max<VkDeviceSize>(w.bytes, 256), engine::BufferDomain::Device, w.usage, w.name);
         if (!buffer) return buffer.error();
         scene.*w.buffer = std::move(*buffer);
     }

@@ -29,8 +29,11 @@ void recordPlaces(const Event& e) {
         uint32_t vertex_count;
         float step;
     } voronoi = {c.vertices, e.grid.step};
-    r.run("place_voronoi", Length::counted(COUNT_VORONOI_VERTICES), voronoi, {r.counts(), b.sites, b.vertex_sites, b.points, b.positions});
-    PublishPush all = {COUNT_POINTS, c.points(), c.vertices, 0, {COUNT_CROSSINGS, COUNT_TRIPLES, COUNT_VORONOI_VERTICES, NO_INDEX}, {1, 1, 1, 0}};
+    r.run("place_voronoi", Length::counted(COUNT_VORONOI_VERTICES), voronoi,
+          {r.counts(), b.sites, b.vertex_sites, b.points, b.positions});
+    PublishPush all = {
+        COUNT_POINTS, c.points(), c.vertices, 0, {COUNT_CROSSINGS, COUNT_TRIPLES, COUNT_VORONOI_VERTICES, NO_INDEX},
+        {1, 1, 1, 0}};
     r.runGroups("publish_sum", 1, all, {r.counts(), r.args()});
     struct WeldPush {
         uint32_t length, length_count, table_mask;
@@ -39,7 +42,8 @@ void recordPlaces(const Event& e) {
     struct ResolvePush {
         uint32_t length, length_count;
     } resolve = {0, COUNT_POINTS};
-    r.run("resolve_points", Length::counted(COUNT_POINTS), resolve, {r.counts(), b.point_table, b.point_slots, b.welded, b.shared_points});
+    r.run("resolve_points", Length::counted(COUNT_POINTS), resolve,
+          {r.counts(), b.point_table, b.point_slots, b.welded, b.shared_points});
     r.commands().endLabel();
 }
 
@@ -49,13 +53,14 @@ void recordDepth(const Event& e) {
     r.commands().beginLabel("classify_cells");
     r.clear({b.edge_triple_counts, b.edge_triple_cursors, b.edge_sums});
     r.run("assign_triples", Length::counted(COUNT_TRIPLES), engine::NoPush{},
-          {r.counts(), b.cell_offsets, b.corners, b.corner_info, b.triples, b.triple_signs, b.triple_edges, b.edge_triple_counts, b.edge_sums});
+          {r.counts(), b.cell_offsets, b.corners, b.corner_info, b.triples, b.triple_signs, b.triple_edges,
+           b.edge_triple_counts, b.edge_sums});
     r.scan(Length::counted(COUNT_VORONOI_EDGES), b.edge_triple_counts, b.sums, b.edge_triple_offsets, {});
     r.run("group_triples", Length::counted(COUNT_TRIPLES), engine::NoPush{},
           {r.counts(), b.triple_edges, b.edge_triple_offsets, b.edge_triple_cursors, b.loose_triples});
     r.run("order_triples", Length::counted(COUNT_TRIPLES), engine::NoPush{},
-          {r.counts(), b.sites, b.grid_vertices, b.mesh_triangles, b.triples, b.triple_signs, b.triple_edges, b.edge_triple_offsets,
-           b.loose_triples, b.ordered_triples});
+          {r.counts(), b.sites, b.grid_vertices, b.mesh_triangles, b.triples, b.triple_signs, b.triple_edges,
+           b.edge_triple_offsets, b.loose_triples, b.ordered_triples});
     r.run("start_depth", Length::counted(COUNT_VORONOI_VERTICES), engine::NoPush{},
           {r.counts(), b.sites, b.cell_offsets, b.corners, b.corner_info, b.vertex_sites, b.edge_ends, b.edge_sums, b.links});
     for (uint32_t round = 0; round < kDepthRounds; round++) {
@@ -77,12 +82,12 @@ void recordSegments(const Event& e) {
     for (uint32_t pass : {kCount, kFill}) {
         const auto& faces = pass == kCount ? b.face_counts : b.face_cursors;
         r.run("cap_intervals", Length::counted(COUNT_VORONOI_EDGES), c.vertices,
-              {r.counts(), b.cell_offsets, b.neighbors, b.edge_sites, b.edge_ends, depths, b.edge_triple_offsets, b.ordered_triples,
-               b.triple_signs, b.interval_counts, b.interval_offsets, faces, b.face_offsets, b.segments},
+              {r.counts(), b.cell_offsets, b.neighbors, b.edge_sites, b.edge_ends, depths, b.edge_triple_offsets,
+               b.ordered_triples, b.triple_signs, b.interval_counts, b.interval_offsets, faces, b.face_offsets, b.segments},
               pass);
         r.run("cap_cuts", Length::counted(COUNT_POLYGONS), engine::NoPush{},
-              {r.counts(), b.cell_offsets, b.neighbors, b.polygons, b.polygon_offsets, b.polygon_sides, b.polygon_corners, faces,
-               b.face_offsets, b.segments},
+              {r.counts(), b.cell_offsets, b.neighbors, b.polygons, b.polygon_offsets, b.polygon_sides, b.polygon_corners,
+               faces, b.face_offsets, b.segments},
               pass);
         if (pass == kFill) break;
         r.scan(Length::counted(COUNT_VORONOI_EDGES), b.interval_counts, b.sums, b.interval_offsets,
@@ -101,17 +106,17 @@ void recordTriangulation(const Event& e) {
            {{COUNT_FACES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.neighbors, 0, 0, 0}});
     r.compact(Length::counted(COUNT_NEIGHBORS), b.face_slots, b.faces);
     r.run("cap_faces", Length::counted(COUNT_FACES), engine::NoPush{},
-          {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points, b.loose_caps,
-           b.cap_counts, b.large_faces, b.huge_faces});
+          {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
+           b.loose_caps, b.cap_counts, b.large_faces, b.huge_faces});
     r.publish(COUNT_LARGE_FACES, c.neighbors);
     r.publish(COUNT_HUGE_FACES, c.neighbors);
     r.runGroups("cap_faces_large", r.groupsOf(COUNT_LARGE_FACES), engine::NoPush{},
-                {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points, b.loose_caps,
-                 b.cap_counts, b.large_faces, b.nodes, b.rings, b.loops});
+                {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
+                 b.loose_caps, b.cap_counts, b.large_faces, b.nodes, b.rings, b.loops});
     if (c.rare.huge_faces)
         r.runGroups("cap_faces_huge", r.groupsOf(COUNT_HUGE_FACES), engine::NoPush{},
-                {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points, b.loose_caps,
-                 b.cap_counts, b.huge_faces, b.nodes, b.rings, b.loops});
+                    {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
+                     b.loose_caps, b.cap_counts, b.huge_faces, b.nodes, b.rings, b.loops});
     r.scan(Length::counted(COUNT_FACES), b.cap_counts, b.sums, b.cap_offsets,
            {{COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.caps, 0, 0, 0}});
 }

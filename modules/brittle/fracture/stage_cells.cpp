@@ -35,7 +35,8 @@ void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t 
     if (!recorded) return;
     e.record.runGroups(name, e.record.groupsOf(COUNT_EXACT_SMALL + size_class), cutPush(e, size_class),
                        {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
-    if (size_class < 2) e.record.publish(COUNT_EXACT_MEDIUM + size_class, size_class == 0 ? e.capacity.exact_medium : e.capacity.exact_large);
+    if (size_class < 2)
+        e.record.publish(COUNT_EXACT_MEDIUM + size_class, size_class == 0 ? e.capacity.exact_medium : e.capacity.exact_large);
 }
 
 void recordCutting(const Event& e) {
@@ -45,7 +46,8 @@ void recordCutting(const Event& e) {
                      {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},
                      e.capacity.sites,
                      e.turn_budget};
-    e.record.run("cut_cells", Length::of(e.capacity.sites), fast, {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
+    e.record.run("cut_cells", Length::of(e.capacity.sites), fast,
+                 {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
     e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
     e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
     recordExact(e, "cut_cells_exact", e.capacity.rare.exact_cells, 0);

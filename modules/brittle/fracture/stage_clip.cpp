@@ -13,20 +13,22 @@ void recordOwners(const Event& e) {
         Int4 bins, low;
         uint32_t length;
     } push = {g.bins, {g.box_low[0], g.box_low[1], g.box_low[2], 0}, e.capacity.vertices};
-    e.record.run("own_vertices", Length::of(e.capacity.vertices), push,
-                 {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.owners});
+    e.record.run(
+        "own_vertices", Length::of(e.capacity.vertices), push,
+        {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.owners});
 }
 
 void recordCrossings(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
     e.record.run("flag_edges", Length::of(c.edges), c.edges, {b.mesh_edges, b.owners, b.edge_flags});
-    e.record.scan(Length::of(c.edges), b.edge_flags, b.sums, b.edge_slot, {{COUNT_MIXED_EDGES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.edges, 0, 0, 0}});
+    e.record.scan(Length::of(c.edges), b.edge_flags, b.sums, b.edge_slot,
+                  {{COUNT_MIXED_EDGES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.edges, 0, 0, 0}});
     e.record.compact(Length::of(c.edges), b.edge_slot, b.mixed_edges);
     for (uint32_t pass : {kCount, kFill}) {
         e.record.run("cross_edges", Length::counted(COUNT_MIXED_EDGES), engine::NoPush{},
-                     {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_edges, b.owners, b.mixed_edges,
-                      b.crossing_counts, b.crossing_offsets, b.crossings},
+                     {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_edges, b.owners,
+                      b.mixed_edges, b.crossing_counts, b.crossing_offsets, b.crossings},
                      pass);
         if (pass == kCount)
             e.record.scan(Length::counted(COUNT_MIXED_EDGES), b.crossing_counts, b.sums, b.crossing_offsets,
@@ -53,8 +55,8 @@ void recordPairs(const Event& e) {
     const bool wide = e.capacity.sides_per_polygon > USUAL_SIDES;
     PairPush push = {e.capacity.pairs, static_cast<uint32_t>(b.pair_table.size / 8) - 1};
     e.record.run("seed_pairs", Length::counted(COUNT_MIXED_TRIANGLES), push,
-                 {e.record.counts(), b.mixed_triangles, b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot, b.crossing_offsets,
-                  b.crossings, b.pairs, b.pair_table});
+                 {e.record.counts(), b.mixed_triangles, b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot,
+                  b.crossing_offsets, b.crossings, b.pairs, b.pair_table});
     for (uint32_t round = 0; round <= e.capacity.clip_rounds; round++) {
         struct RoundPush {
             uint32_t capacity, is_last;
@@ -62,8 +64,9 @@ void recordPairs(const Event& e) {
         e.record.runGroups("next_round", 1, next, {e.record.counts(), e.record.args(), b.round_bounds});
         if (next.is_last != 0) break;
         e.record.run(wide ? "clip_triangles_wide" : "clip_triangles", Length::counted(COUNT_ROUND), push,
-                     {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_triangles, b.mixed_triangles,
-                      b.round_bounds, b.pairs, b.pair_table, b.pair_sides, b.pair_shape, b.triangle_polygons});
+                     {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_triangles,
+                      b.mixed_triangles, b.round_bounds, b.pairs, b.pair_table, b.pair_sides, b.pair_shape,
+                      b.triangle_polygons});
     }
 }
 
@@ -75,15 +78,16 @@ void recordPolygons(const Event& e) {
     e.record.run("place_polygons", Length::counted(COUNT_PAIRS), engine::NoPush{},
                  {e.record.counts(), b.pairs, b.pair_shape, b.triangle_polygon_offsets, b.triangle_cursors, b.loose_polygons});
     e.record.run("order_polygons", Length::counted(COUNT_POLYGONS), c.sides_per_polygon,
-                 {e.record.counts(), b.pairs, b.pair_shape, b.pair_sides, b.triangle_polygon_offsets, b.loose_polygons, b.mixed_triangles,
-                  b.polygons, b.polygon_counts});
+                 {e.record.counts(), b.pairs, b.pair_shape, b.pair_sides, b.triangle_polygon_offsets, b.loose_polygons,
+                  b.mixed_triangles, b.polygons, b.polygon_counts});
     e.record.scan(Length::counted(COUNT_POLYGONS), b.polygon_counts, b.sums, b.polygon_offsets,
                   {{COUNT_SIDES, COUNT_TRIPLES, NO_INDEX, COUNT_FAN_TRIANGLES}, {c.sides, c.triples, NO_INDEX, c.fans}}, true);
     e.record.run("list_triples", Length::counted(COUNT_POLYGONS), c.sides_per_polygon,
                  {e.record.counts(), b.polygons, b.polygon_offsets, b.pair_sides, b.polygon_sides, b.triples, b.triple_signs});
     e.record.run("number_corners", Length::counted(COUNT_POLYGONS), c.vertices,
-                 {e.record.counts(), b.polygons, b.polygon_offsets, b.polygon_sides, b.mesh_triangles, b.triangle_edges, b.edge_slot,
-                  b.crossing_offsets, b.crossings, b.triangle_slot, b.triangle_polygon_offsets, b.triples, b.polygon_corners});
+                 {e.record.counts(), b.polygons, b.polygon_offsets, b.polygon_sides, b.mesh_triangles, b.triangle_edges,
+                  b.edge_slot, b.crossing_offsets, b.crossings, b.triangle_slot, b.triangle_polygon_offsets, b.triples,
+                  b.polygon_corners});
 }
 
 } // namespace

@@ -16,11 +16,12 @@ void recordPieces(const Event& e) {
     r.run("list_fans", Length::counted(COUNT_POLYGONS), c.triangles,
           {r.counts(), b.polygons, b.polygon_offsets, b.polygon_corners, b.welded, b.pieces, b.sources, b.parents});
     r.run("list_caps", Length::counted(COUNT_FACES), c.triangles,
-          {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources, b.parents,
-           b.shared_points, b.suspects});
+          {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources,
+           b.parents, b.shared_points, b.suspects});
     struct SumPush {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
-    } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX}, {1, 2, 0, 0}};
+    } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX},
+               {1, 2, 0, 0}};
     r.runGroups("publish_sum", 1, total, {r.counts(), r.args()});
 }
 
@@ -68,9 +69,9 @@ void recordEmitWindow(const Event& e, uint32_t first) {
     } push = {first, std::min(e.capacity.emit_window, e.capacity.emitted - first)};
     constexpr VkDeviceSize kVertexBytes = 3 * sizeof(FragmentVertex), kIndexBytes = 3 * sizeof(uint32_t);
     e.record.run("emit", Length::counted(COUNT_VALID), push,
-                 {e.record.counts(), b.values, b.components, b.pieces, b.sources, b.positions, b.class_offsets, b.component_start, b.shares,
-                  b.demand_offsets, b.fates, b.mesh_positions, b.mesh_triangles, b.corner_attributes,
-                  e.scene.vertices.sub(kVertexBytes * first, kVertexBytes * push.triangle_count),
+                 {e.record.counts(), b.values, b.components, b.pieces, b.sources, b.positions, b.class_offsets,
+                  b.component_start, b.shares, b.demand_offsets, b.fates, b.mesh_positions, b.mesh_triangles,
+                  b.corner_attributes, e.scene.vertices.sub(kVertexBytes * first, kVertexBytes * push.triangle_count),
                   e.scene.indices.sub(kIndexBytes * first, kIndexBytes * push.triangle_count)});
 }
 
@@ -106,7 +107,8 @@ void recordMassProperties(const Event& e) {
     r.publish(COUNT_CAVITIES, e.capacity.components);
     if (e.capacity.rare.cavities)
         r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), engine::NoPush{},
-                    {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates, b.ordered_cavities});
+                    {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates,
+                     b.ordered_cavities});
     r.commands().endLabel();
 }
 
@@ -115,7 +117,8 @@ void recordEmission(const Event& e) {
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.commands().beginLabel("allocate");
-    r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles, {r.counts(), b.values, b.sources, b.components, b.fates, b.classes, b.parents});
+    r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles,
+          {r.counts(), b.values, b.sources, b.components, b.fates, b.classes, b.parents});
     r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
     r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
           {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares, b.cavities});
@@ -123,7 +126,8 @@ void recordEmission(const Event& e) {
            {{COUNT_FRAGMENTS, COUNT_EMITTED, NO_INDEX, NO_INDEX}, {c.fragments, c.emitted, 0, 0}}, true);
     r.commands().endLabel();
     r.commands().beginLabel("emit");
-    for (uint32_t first = 0; first < c.emitted; first += c.emit_window) recordEmitWindow(e, first);
+    for (uint32_t first = 0; first < c.emitted; first += c.emit_window)
+        recordEmitWindow(e, first);
     r.run("emit_objects", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
           {r.counts(), b.records, b.fates, b.demand_offsets, b.shares, e.scene.draw_commands, e.scene.bounds, e.scene.fragments,
            e.scene.matrices, e.scene.objects, b.ordered_cavities});

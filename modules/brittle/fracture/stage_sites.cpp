@@ -23,8 +23,8 @@ void recordPlacement(const Event& e) {
     for (uint32_t round = 0; round < kPlacementRounds; round++) {
         push.first_try = round * kTriesPerRound;
         e.record.run("place_sites", Length::of(e.capacity.sites), push,
-                     {e.record.counts(), e.b.grid_vertices, e.b.mesh_triangles, e.b.column_start, e.b.column_triangles, e.b.columns,
-                      e.b.raw_sites, e.b.placed});
+                     {e.record.counts(), e.b.grid_vertices, e.b.mesh_triangles, e.b.column_start, e.b.column_triangles,
+                      e.b.columns, e.b.raw_sites, e.b.placed});
     }
 }
 
@@ -37,9 +37,11 @@ void recordSiteWelding(const Event& e) {
     struct ResolvePush {
         uint32_t length, length_count;
     } resolve = {n, NO_INDEX};
-    e.record.run("resolve_points", Length::of(n), resolve, {e.record.counts(), e.b.site_table, e.b.site_slots, e.b.welded_sites, e.b.site_flags});
+    e.record.run("resolve_points", Length::of(n), resolve,
+                 {e.record.counts(), e.b.site_table, e.b.site_slots, e.b.welded_sites, e.b.site_flags});
     e.record.run("flag_sites", Length::of(n), n, {e.record.counts(), e.b.welded_sites, e.b.placed, e.b.site_flags});
-    e.record.scan(Length::of(n), e.b.site_flags, e.b.sums, e.b.site_offsets, {{COUNT_SITES, NO_INDEX, NO_INDEX, NO_INDEX}, {n, 0, 0, 0}});
+    e.record.scan(Length::of(n), e.b.site_flags, e.b.sums, e.b.site_offsets,
+                  {{COUNT_SITES, NO_INDEX, NO_INDEX, NO_INDEX}, {n, 0, 0, 0}});
 }
 
 void recordBinning(const Event& e) {
@@ -48,7 +50,8 @@ void recordBinning(const Event& e) {
         int32_t bins[4], low[4];
         uint32_t site_count;
     } keep = {{g.bins[0], g.bins[1], g.bins[2], g.bins[3]}, {g.box_low[0], g.box_low[1], g.box_low[2], 0}, e.capacity.sites};
-    e.record.run("keep_sites", Length::of(e.capacity.sites), keep, {e.b.site_offsets, e.b.raw_sites, e.b.sites, e.b.bin_counts});
+    e.record.run("keep_sites", Length::of(e.capacity.sites), keep,
+                 {e.b.site_offsets, e.b.raw_sites, e.b.sites, e.b.bin_counts});
     e.record.scan(Length::of(e.capacity.bins), e.b.bin_counts, e.b.sums, e.b.bin_start, {});
     struct BinPush {
         Int4 bins, low;

@@ -22,14 +22,17 @@ public:
 
     // The filled buffer; it must outlive the execution of the copies, the data need not.
     engine::Result<engine::Buffer> stage(engine::Device& device) const {
-        auto staging = engine::Buffer::create(device, std::max<VkDeviceSize>(bytes_, 16), engine::BufferDomain::Upload, 0, "upload");
+        auto staging =
+            engine::Buffer::create(device, std::max<VkDeviceSize>(bytes_, 16), engine::BufferDomain::Upload, 0, "upload");
         if (!staging) return staging;
-        for (const Part& part : parts_) std::memcpy(staging->mapped() + part.offset, part.bytes.data(), part.bytes.size());
+        for (const Part& part : parts_)
+            std::memcpy(staging->mapped() + part.offset, part.bytes.data(), part.bytes.size());
         return staging;
     }
     void copy(engine::Commands& commands, const engine::Buffer& staging) const {
         for (const Part& part : parts_)
-            commands.copy(engine::BufferView(staging).sub(part.offset, part.bytes.size()), part.target.sub(0, part.bytes.size()));
+            commands.copy(engine::BufferView(staging).sub(part.offset, part.bytes.size()),
+                          part.target.sub(0, part.bytes.size()));
     }
 
 private:
