@@ -111,6 +111,31 @@ TEST_F(Cli, AnUnwritableOutputIsRefused) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
+// By whatever name, through whatever link.
+TEST_F(Cli, NoOutputReplacesAnInput) {
+    const std::string model = path("model.off"), link = path("link.off"), sites = path("sites.txt");
+    std::ofstream(model) << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    std::ofstream(sites) << "0.1 0.1 0.1\n";
+    std::filesystem::create_symlink(model, link);
+    const std::string before = fileBytes(model), sites_before = fileBytes(sites), good = path("good.glb");
+    const std::vector<std::vector<std::string>> runs = {
+        {"-o", model},
+        {"-o", link},
+        {"-o", path("../" + std::filesystem::path(path("")).parent_path().filename().string() + "/model.off")},
+        {"-o", good, "--picture", model},
+        {"-o", good, "--sites-file", sites, "--picture", sites},
+        {"-o", good, "--picture", good}};
+    for (std::vector<std::string> arguments : runs) {
+        arguments.insert(arguments.begin(), {"shatter", model});
+        const Outcome run = runProgram("brittle", arguments);
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_EQ(fileBytes(model), before);
+        EXPECT_EQ(fileBytes(sites), sites_before);
+        EXPECT_FALSE(std::filesystem::exists(good));
+    }
+}
+
 TEST_F(Cli, HelpIsNoError) {
     for (const char* command : {"shatter", "devices", "doctor"}) {
         const Outcome run = runProgram("brittle", {command, "--help"});

@@ -8,6 +8,7 @@
 #include "tools/brittle/sites_file.h"
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 
 namespace cli {
@@ -26,6 +27,7 @@ public:
     engine::Result<ShatterOutcome> all();
 
 private:
+    engine::Result<void> checkPathsApart() const;
     engine::Result<void> openOutputs();
     engine::Result<void> readModel();
     engine::Result<void> checkModel();
@@ -76,6 +78,25 @@ engine::Result<ShatterOutcome> Run::all() {
     return std::move(outcome_);
 }
 
+// By whatever names: links and detours are followed.
+bool sameFile(const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty()) return false;
+    std::error_code ignored;
+    if (std::filesystem::equivalent(a, b, ignored)) return true;
+    return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+}
+
+engine::Result<void> Run::checkPathsApart() const {
+    const auto refused = [](const std::string& path, const std::string& why) {
+        return engine::Error{engine::ErrorCode::BadInput, path + ": " + why};
+    };
+    if (sameFile(options_.picture, options_.output)) return refused(options_.output, "fragments and picture need a file each");
+    for (const std::string& output : {options_.output, options_.picture})
+        for (const std::string& input : {options_.model, options_.sites_file})
+            if (sameFile(output, input)) return refused(output, "is read as input and would be overwritten; write to another file");
+    return {};
+}
+
 engine::Result<void> Run::openOutputs() {
     const auto open = [](const std::string& path, std::optional<brittle::OutputFile>& file) -> engine::Result<void> {
         auto created = brittle::OutputFile::create(path);
@@ -83,8 +104,7 @@ engine::Result<void> Run::openOutputs() {
         file.emplace(std::move(*created));
         return {};
     };
-    if (options_.picture == options_.output)
-        return engine::Error{engine::ErrorCode::BadInput, options_.output + ": fragments and picture need a file each"};
+    if (auto apart = checkPathsApart(); !apart) return apart.error();
     if (auto opened = open(options_.output, output_); !opened) return opened.error();
     if (options_.picture.empty()) return {};
     return open(options_.picture, picture_);
