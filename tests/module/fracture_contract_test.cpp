@@ -306,6 +306,15 @@ TEST(FractureRefuses, NoSitesAndSitesFarAway) {
     EXPECT_EQ(result.error().code, engine::ErrorCode::BadInput);
 }
 
+TEST(FractureRefuses, MoreCellsThanTheDeviceCanBind) {
+    const Model cube = modelFrom("builtin:cube");
+    FractureOptions options;
+    options.site_count = 1 << 24;
+    const auto result = shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, engine::ErrorCode::Capacity) << result.error().message;
+}
+
 TEST(FractureRepeats, TheSameBytesEveryTime) {
     const Model ring = modelFrom("builtin:ring");
     FractureOptions options;

@@ -14,11 +14,17 @@ constexpr uint64_t kMediumStore = 8 * 256 + 23 * 512, kLargeStore = 8 * 2048 + 2
 class Taker {
 public:
     explicit Taker(engine::ScratchArena& arena) : arena_(arena) {}
-    engine::BufferView words(uint64_t count) { return arena_.take(4 * std::max<uint64_t>(count, 4)); }
-    engine::BufferView quads(uint64_t count) { return arena_.take(16 * std::max<uint64_t>(count, 1)); }
+    engine::BufferView words(uint64_t count) { return take(4 * std::max<uint64_t>(count, 4)); }
+    engine::BufferView quads(uint64_t count) { return take(16 * std::max<uint64_t>(count, 1)); }
+    uint64_t largest() const { return largest_; }
 
 private:
+    engine::BufferView take(uint64_t bytes) {
+        largest_ = std::max(largest_, bytes);
+        return arena_.take(bytes);
+    }
     engine::ScratchArena& arena_;
+    uint64_t largest_ = 0;
 };
 
 struct Input {
@@ -212,7 +218,7 @@ void takePieces(const Input& in, Taker& take) {
 
 } // namespace
 
-void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
+uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
             EventBuffers& b) {
     const Input in = {c, mesh, columns, b};
     Taker take(arena);
@@ -226,6 +232,7 @@ void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, 
     }
     arena.release(until_caps);
     takePieces(in, take);
+    return take.largest();
 }
 
 } // namespace brittle

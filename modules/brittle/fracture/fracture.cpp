@@ -24,6 +24,8 @@ constexpr uint32_t kMaxAttempts = 12;
 // A workgroup adds up the triangles of a fragment, which may be all of the mesh.
 constexpr size_t kMostTriangles = 3'000'000;
 
+std::string megabytes(uint64_t bytes) { return std::to_string(bytes / (1024 * 1024)) + " MiB"; }
+
 struct Attempt {
     FractureResult result;
     std::vector<uint32_t> status;
@@ -143,7 +145,11 @@ private:
                                                    EventBuffers& b) {
         auto plan = engine::ScratchArena::create(device_, 256, "plan");
         if (!plan) return plan;
-        layOut(*plan, c, mesh, columns, b);
+        const uint64_t largest = layOut(*plan, c, mesh, columns, b), most = device_.limits().maxStorageBufferRange;
+        if (largest > most)
+            return engine::Error{engine::ErrorCode::Capacity, "the event's largest list has " + megabytes(largest) +
+                                                                  ", the device can bind " + megabytes(most) +
+                                                                  "; use fewer sites or a smaller mesh"};
         return engine::ScratchArena::create(device_, plan->peak(), "general buffer");
     }
 

@@ -84,7 +84,8 @@ struct EventBuffers {
         demand_offsets, shares;
 };
 
-void layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
+// Returns the bytes of the largest view.
+uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
             EventBuffers& b);
 
 } // namespace brittle
