@@ -334,6 +334,12 @@ bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c) {
     return (turn(from, x, p) > 0 && turn(x, to, p) > 0) || (turn(from, x, n) > 0 && turn(x, to, n) > 0);
 }
 
+// A tip where the outline turns back on itself, or stands still: nothing lies between its edges.
+bool isSpike(ivec2 a, ivec2 b, ivec2 c) {
+    ivec2 u = a - b, w = c - b;
+    return signOf(int64_t(u.x) * int64_t(w.x) + int64_t(u.y) * int64_t(w.y)) > 0 || u == ivec2(0) || w == ivec2(0);
+}
+
 uint priorityOf(uint k) { return (k * 0x9e3779b1u) ^ (k >> 7); }
 
 void main() {
@@ -396,7 +402,7 @@ void main() {
             ivec2 a = at(p), b = at(k), c = at(s);
             int size = turn(a, b, c);
             bool test = candidate && size > 0 && phase < 2u && budget > 0u;
-            bool ear = candidate && (size > 0 || (phase >= 1u && size == 0) || phase >= 3u);
+            bool ear = candidate && (size > 0 || (size == 0 && (phase >= 1u || isSpike(a, b, c))) || phase >= 3u);
             for (uint r = 0u; r < reflex_total && test && ear; r++) {
                 uint q = reflex_list[r];
                 bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;

@@ -30,7 +30,21 @@ layout(push_constant) uniform Push {
 
 vec3 modelVertex(uint v) { return vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]); }
 
+float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// Of edges of any length: squares of tiny ones are no numbers any more.
+vec3 normalOf(vec3 u, vec3 w) {
+    vec3 n = cross(u / max(largest(u), 1e-37), w / max(largest(w), 1e-37));
+    float size = length(n);
+    return size > 0.0 ? n / size : vec3(0.0, 0.0, 1.0);
+}
+
 vec3 barycentric(vec3 p, vec3 a, vec3 b, vec3 c) {
+    float scale = 1.0 / max(max(largest(b - a), largest(c - a)), 1e-37);
+    p = (p - a) * scale;
+    b = (b - a) * scale;
+    c = (c - a) * scale;
+    a = vec3(0.0);
     vec3 n = cross(b - a, c - a);
     float size = max(dot(n, n), 1e-38);
     vec3 w = vec3(dot(n, cross(c - b, p - b)), dot(n, cross(a - c, p - c)), dot(n, cross(b - a, p - a))) / size;
@@ -69,9 +83,7 @@ void main() {
     uint m = cap ? 0u : source;
     vec3 a = modelVertex(triangles[3u * m]), b = modelVertex(triangles[3u * m + 1u]), d = modelVertex(triangles[3u * m + 2u]);
     vec3 p0 = positions[piece.x].xyz, p1 = positions[piece.y].xyz, p2 = positions[piece.z].xyz;
-    vec3 flat_normal = cross(p1 - p0, p2 - p0);
-    float size = length(flat_normal);
-    flat_normal = size > 0.0 ? flat_normal / size : vec3(0.0, 0.0, 1.0);
+    vec3 flat_normal = normalOf(p1 - p0, p2 - p0);
     vec3 along = abs(flat_normal.x) > 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 u = normalize(cross(along, flat_normal)), w = cross(flat_normal, u);
     for (uint corner = 0u; corner < ROLLED(3); corner++) {

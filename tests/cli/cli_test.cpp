@@ -97,12 +97,22 @@ TEST_F(Cli, BadUsageIsRefused) {
     EXPECT_EQ(runProgram("brittle", {"shatter", "builtin:cube"}).exit_code, 2) << "no output named";
     expectRefused({"shatter", "builtin:cube", "--sites", "0"}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites", "many"}, 2);
+    for (const char* seed : {"-1", "99999999999999999999", "one"})
+        expectRefused({"shatter", "builtin:cube", "--seed", seed}, 2);
+    expectRefused({"shatter", "builtin:cube", "--explode", "nan"}, 2);
     expectRefused({"shatter", "builtin:nothing"}, 2);
     expectRefused({"shatter", path("missing.obj")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);
     std::ofstream(path("bad.txt")) << "0 0 0\n1 2\n";
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("bad.txt")}, 2);
     expectRefused({"shatter", "builtin:cube", "--device", "no such device"}, 4);
+}
+
+TEST_F(Cli, OddSitesFilesAreRefused) {
+    expectRefused({"shatter", "builtin:cube", "--sites-file", path("")}, 2);
+    expectRefused({"shatter", "builtin:cube", "--sites-file", "/dev/zero"}, 2);
+    std::ofstream(path("mark.txt")) << "\xEF\xBB\xBF" "0 0 0\n";
+    EXPECT_EQ(runProgram("brittle", {"shatter", "builtin:cube", "--sites-file", path("mark.txt"), "-o", path("mark.glb")}).exit_code, 0);
 }
 
 TEST_F(Cli, AnUnwritableOutputIsRefused) {

@@ -107,7 +107,7 @@ void addBench(CLI::App& app, int& exit_code) {
     command->add_option("--rounds", options->bench.rounds, "how often each is measured")
         ->capture_default_str()
         ->check(CLI::Range(1u, 1000u));
-    command->add_option("--cell-counts", options->bench.cell_counts, "numbers of sites in a cube")->capture_default_str();
+    command->add_option("--cell-counts", options->bench.cell_counts, "numbers of sites in a cube")->capture_default_str()->check(CLI::Range(1u, 1u << 24));
     command->add_option("--shatter-counts", options->bench.shatter_counts, "numbers of sites in the bumpy sphere")
         ->capture_default_str();
     CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");

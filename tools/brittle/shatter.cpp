@@ -156,14 +156,13 @@ engine::Result<void> Run::breakModel() {
     return {};
 }
 
-// JSON reports the errors in any case; only --verify makes them a reason to stop.
+// Always: a wrong result is no result. --verify says in words what was found.
 engine::Result<void> Run::verify() {
-    if (!options_.verify && !options_.as_json) return {};
     const brittle::FractureResult& result = outcome_.result;
     outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
     const std::string violation = outcome_.contract.violation();
-    if (!options_.verify || violation.empty()) return {};
-    return aboutModel({engine::ErrorCode::Internal, "the fragments break their contract: " + violation + "; please report it"});
+    if (violation.empty()) return {};
+    return aboutModel({engine::ErrorCode::Internal, "the fragments break their contract: " + violation + "; nothing was written; move the sites a little, and please report it"});
 }
 
 engine::Result<void> Run::writeFragments() {

@@ -5,7 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace cli {
 namespace {
@@ -81,6 +84,15 @@ constexpr const char* kFooter =
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
 
+// CLI11 takes -1 for the largest number, and what is too large for it as well.
+std::string wholeNumber(const std::string& text) {
+    uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? "" : "\"" + text + "\" is no whole number below 2^64";
+}
+
+std::string someText(const std::string& text) { return text.empty() ? "an empty name; leave the option out instead" : ""; }
+
 } // namespace
 
 void addShatter(CLI::App& app, int& exit_code) {
@@ -88,17 +100,18 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     auto options = std::make_shared<ShatterOptions>();
     command->add_option("MODEL", options->model, "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME")->required();
-    command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")->required();
+    command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")->required()->check(someText);
     CLI::Option* sites = command->add_option("--sites", options->sites, "how many sites, and so about how many fragments")
                              ->capture_default_str();
     sites->check(CLI::Range(1u, 1u << 24));
-    command->add_option("--seed", options->seed, "another seed breaks it otherwise")->capture_default_str();
-    command->add_option("--sites-file", options->sites_file, "sites from a text file instead")->excludes(sites);
-    command->add_flag("--verify", options->verify, "check the fragments, write nothing where they break their contract");
-    command->add_option("--picture", options->picture, "also draw them into this PNG file");
+    command->add_option("--seed", options->seed, "another seed breaks it otherwise")->capture_default_str()->check(wholeNumber);
+    command->add_option("--sites-file", options->sites_file, "sites from a text file instead")->excludes(sites)->check(someText);
+    command->add_flag("--verify", options->verify, "say in words what the check of the fragments found; nothing is written where it fails");
+    command->add_option("--picture", options->picture, "also draw them into this PNG file")->check(someText);
     command->add_option("--explode", options->explode, "in the picture, move fragments this many times further from the center")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1000.0));
+        ->check(CLI::Range(0.0, 1000.0))
+        ->check([](const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; });
     command->add_flag("--json", options->as_json, "print one JSON object, errors measured");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command->callback([options, &exit_code] { exit_code = runShatter(*options); });

@@ -87,6 +87,7 @@ private:
     void checkMeasures(const Fragment& fragment);
     void checkCell(const Fragment& fragment);
     void checkInner();
+    bool isTurnedOver(const InnerTriangle& triangle, uint32_t behind) const;
     void checkSums();
     Double3 corner(uint32_t vertex) const { return positionOf(set_.vertices[vertex]); }
 
@@ -229,6 +230,8 @@ void Verifier::checkInner() {
     for (size_t first = 0, k = 0; first < inner_.size(); first = k) {
         uint64_t one_sided = 0;
         int64_t balance = 0;
+        report_.turned_inner_triangles += first + 1 < inner_.size() && inner_[first].corners == inner_[first + 1].corners &&
+                                          isTurnedOver(inner_[first], inner_[first + 1].fragment);
         while (k < inner_.size() && inner_[k].corners == inner_[first].corners) {
             const uint32_t fragment = inner_[k].fragment;
             int64_t own = 0;
@@ -239,6 +242,15 @@ void Verifier::checkInner() {
         }
         report_.unpaired_inner_triangles += static_cast<uint64_t>(std::abs(balance)) + (k - first - one_sided);
     }
+}
+
+// Corners are rounded to single precision, which may turn over a triangle that is thinner than that.
+bool Verifier::isTurnedOver(const InnerTriangle& triangle, uint32_t behind) const {
+    const Double3 a = corner(triangle.corners[0]), b = corner(triangle.corners[1]), c = corner(triangle.corners[2]);
+    const Double3 way = sites_[set_.fragments[behind].cell] - sites_[set_.fragments[triangle.fragment].cell];
+    const double height = triangle.turn * dot(cross(b - a, c - a), way);
+    const double rounding = std::ldexp(4 * model_.diagonal, -23) * (length(b - a) + length(c - b) + length(a - c));
+    return height < -rounding * length(way);
 }
 
 void Verifier::checkSums() {
@@ -254,6 +266,7 @@ std::string ContractReport::violation() const {
     const auto too_many = [](uint64_t count, const char* what) { return std::to_string(count) + " " + what; };
     if (open_edges > 0) return too_many(open_edges, "open edges");
     if (unpaired_inner_triangles > 0) return too_many(unpaired_inner_triangles, "unpaired inner triangles");
+    if (turned_inner_triangles > 0) return too_many(turned_inner_triangles, "inner triangles that are turned over");
     if (hollow_fragments > 0) return too_many(hollow_fragments, "fragments without positive volume");
     if (parted_fragments > 0) return too_many(parted_fragments, "fragments that are not one connected solid");
     // Written so that what is not a number counts as too large.

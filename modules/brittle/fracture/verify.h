@@ -12,6 +12,7 @@ namespace brittle {
 struct ContractReport {
     uint64_t open_edges = 0;               // by position: not walked as often one way as the other
     uint64_t unpaired_inner_triangles = 0; // without their mirror image in another fragment
+    uint64_t turned_inner_triangles = 0;   // that do not face the fragment behind them, by more than rounding explains
     uint32_t hollow_fragments = 0;         // whose volume is not positive
     uint32_t parted_fragments = 0;         // with more or less than one outer surface; walls of cavities do not count
     double volume_error = 0;               // |sum of fragments - model| / model
