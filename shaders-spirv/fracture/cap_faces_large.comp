@@ -232,14 +232,15 @@ void reduceLowest(uint lane, int64_t key, uint pick) {
 
 const int64_t kFar = int64_t(0x3fffffff) << 32;
 
-// The first upward edge to the right of corner m: the solid lies between. Edges of the hole itself do not count.
-void hitEdge(uint lane, uint m, uint hole) {
+// The first upward edge to the right of corner m: the solid lies between. Edges of the hole itself do not count, and of a
+// corner that the ray meets only the edge above, unless nothing else is met: then m touches the top of an outline.
+void hitEdge(uint lane, uint m, uint hole, bool tops_too) {
     ivec2 p = at(m);
     int64_t key = kFar;
     uint pick = NO_INDEX;
     for (uint k = lane; k < node_total; k += LANES) {
         ivec2 a = at(k), b = live(k) ? at(nextOf(k)) : a;
-        bool spans = live(k) && a.y <= p.y && p.y < b.y && rings[base + k].z != hole;
+        bool spans = live(k) && a.y <= p.y && (p.y < b.y || (tops_too && p.y == b.y && a.y < b.y)) && rings[base + k].z != hole;
         int64_t rise = int64_t(max(b.y - a.y, 1));
         int64_t x = int64_t(a.x) + int64_t(p.y - a.y) * int64_t(b.x - a.x) / rise;
         bool right = turn(a, b, p) >= 0;
@@ -258,32 +259,35 @@ bool inCone(ivec2 before, ivec2 c, ivec2 after, ivec2 x) {
     return convex ? between : !between;
 }
 
-// Whether corner a leaves the ray to the right from p less than corner b does; of those in one line the nearer.
-bool closerToRay(uint a, uint b, ivec2 p) {
+// Whether corner a leaves the ray to the right from p less than corner b does; of those in one line, or where there is no ray
+// to follow (`lost`), the nearer.
+bool closerToRay(uint a, uint b, ivec2 p, bool lost) {
     if (a == NO_INDEX || b == NO_INDEX) return a != NO_INDEX;
     ivec2 u = abs(at(a) - p), w = abs(at(b) - p);
     int64_t side = int64_t(u.y) * int64_t(w.x) - int64_t(w.y) * int64_t(u.x);
-    bool nearer = u.x != w.x ? u.x < w.x : (u.y != w.y ? u.y < w.y : a < b);
-    return isZero(side) ? nearer : isNegative(side);
+    int64_t far_u = int64_t(u.x) + int64_t(u.y), far_w = int64_t(w.x) + int64_t(w.y);
+    bool nearer = far_u != far_w ? far_u < far_w : a < b;
+    return lost || isZero(side) ? nearer : isNegative(side);
 }
 
 // Of the loop's corners in the triangle (m, point hit, end of the edge hit), the one that leaves the ray least, in
-// lane_pick[0].
-void visibleCorner(uint lane, uint m, uint loop, ivec2 hit, uint end) {
+// lane_pick[0]. Where the ray was lost, the nearest corner of any other loop: rounding has put m just outside of its outline,
+// and what the bridge then crosses is no wider than that.
+void visibleCorner(uint lane, uint m, uint loop, ivec2 hit, uint end, bool lost) {
     ivec2 p = at(m), c = at(end);
     bool above = c.y > p.y;
     uint pick = NO_INDEX;
     for (uint k = lane; k < node_total; k += LANES) {
         ivec2 q = at(k);
-        bool ours = live(k) && rings[base + k].z == loop;
+        bool ours = live(k) && (rings[base + k].z == loop) != lost;
         bool inside = ours && q.x >= p.x && inTriangle(p, above ? hit : c, above ? c : hit, q);
-        inside = inside && (q == p || inCone(at(previousOf(k)), q, at(nextOf(k)), p));
-        pick = inside && closerToRay(k, pick, p) ? k : pick;
+        inside = (ours && lost) || (inside && (q == p || inCone(at(previousOf(k)), q, at(nextOf(k)), p)));
+        pick = inside && closerToRay(k, pick, p, lost) ? k : pick;
     }
     lane_pick[lane] = pick;
     barrier();
     for (uint width = LANES / 2u; width > 0u; width >>= 1) {
-        if (lane < width && closerToRay(lane_pick[lane + width], lane_pick[lane], p)) lane_pick[lane] = lane_pick[lane + width];
+        if (lane < width && closerToRay(lane_pick[lane + width], lane_pick[lane], p, lost)) lane_pick[lane] = lane_pick[lane + width];
         barrier();
     }
 }
@@ -292,16 +296,20 @@ void bridgeHoles(uint lane) {
     uint total = min(hole_total, uint(MAX_LOOPS));
     for (uint h = 0u; h < total; h++) {
         uint hole = holes[h], m = uint(loops[base + hole].y);
-        hitEdge(lane, m, hole);
-        uint edge = lane_pick[0];
-        int x = int(clamp(lane_key[0], -int64_t(0x7ffffff0), int64_t(0x7ffffff0)));
-        barrier();
-        bool found = edge != NO_INDEX;
-        uint follow = found ? nextOf(edge) : 0u;
-        uint end = found && at(edge).x > at(follow).x ? edge : follow;
-        uint loop = found ? rings[base + edge].z : NO_INDEX;
-        visibleCorner(lane, m, loop, ivec2(x, at(m).y), end);
+        uint edge = NO_INDEX;
+        int x = 0;
+        for (uint attempt = 0u; attempt < ROLLED(2) && edge == NO_INDEX; attempt++) {
+            hitEdge(lane, m, hole, attempt == 1u);
+            edge = lane_pick[0];
+            x = int(clamp(lane_key[0], -int64_t(0x7ffffff0), int64_t(0x7ffffff0)));
+            barrier();
+        }
+        bool lost = edge == NO_INDEX;
+        uint follow = lost ? 0u : nextOf(edge), end = !lost && at(edge).x > at(follow).x ? edge : follow;
+        visibleCorner(lane, m, lost ? hole : rings[base + edge].z, ivec2(x, at(m).y), end, lost);
         uint corner = lane_pick[0] == NO_INDEX ? end : lane_pick[0];
+        bool found = !lost || lane_pick[0] != NO_INDEX;
+        uint loop = rings[base + corner].z;
         barrier();
         if (found && lane == 0u) {
             uint m2 = node_total, c2 = node_total + 1u, after = nextOf(corner), before = previousOf(m);
