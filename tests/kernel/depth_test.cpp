@@ -131,9 +131,7 @@ TEST(Depth, InShellsWithinShells) {
 // Voronoi edges run along the axes, and many vertices are one place: x, y and z decide in turn which way is up.
 TEST(SmallDepth, InALattice) {
     for (const double apart : {.25, .4, .6}) {
-        FractureOptions options;
-        for (uint32_t s = 0; s < 64; ++s)
-            options.given_sites.push_back({(s % 4 - 1.5) * apart, (s / 4 % 4 - 1.5) * apart, (s / 16 - 1.5) * apart});
+        FractureOptions options = latticeSites(apart);
         for (uint32_t seed = 0; seed < 4; ++seed) {
             std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
             expectDepth(solidOf("cube"), options);

@@ -47,6 +47,15 @@ brittle::PreparedMesh solidOf(const reference::Triangles& triangles) {
 
 brittle::PreparedMesh solidOf(std::string_view builtin) { return solidOf(valueOf(brittle::makeBuiltin(builtin))); }
 
+brittle::FractureOptions latticeSites(double apart) {
+    brittle::FractureOptions options;
+    for (int z = 0; z < 4; ++z)
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 4; ++x)
+                options.given_sites.push_back({(x - 1.5) * apart, (y - 1.5) * apart, (z - 1.5) * apart});
+    return options;
+}
+
 DeviceEvent::DeviceEvent(const brittle::PreparedMesh& solid, const brittle::FractureOptions& options, Until until)
     : solid_(solid), options_(options) {
     prepare();

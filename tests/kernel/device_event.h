@@ -17,6 +17,9 @@ brittle::PreparedMesh solidOf(const reference::Triangles& triangles);
 // "ring", "cube", "bumpy:2"... as brittle::makeBuiltin names them.
 brittle::PreparedMesh solidOf(std::string_view builtin);
 
+// 4 x 4 x 4 sites around the origin.
+brittle::FractureOptions latticeSites(double apart);
+
 class DeviceEvent {
 public:
     // Pools that were too small are grown and the event is recorded again. What still is amiss afterwards fails the test.

@@ -198,9 +198,7 @@ TEST(Islands, OfManyCellsAreClosed) { expectIslands(solidOf("bumpy:2"), {1234, 5
 
 // The faces of the cube lie in bisectors; what the diagram gives to a site outside belongs to the site behind the face.
 TEST(SmallIslands, OfFacesInBisectorsAreClosed) {
-    FractureOptions options;
-    for (uint32_t s = 0; s < 64; ++s)
-        options.given_sites.push_back({(s % 4 - 1.5) / 2, (s / 4 % 4 - 1.5) / 2, (s / 16 - 1.5) / 2});
+    FractureOptions options = latticeSites(.5);
     for (uint32_t seed = 0; seed < 4; ++seed) {
         std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
         expectIslands(solidOf("cube"), options);

@@ -118,9 +118,7 @@ TEST(Places, OnARing) { expectPlaced(solidOf("ring"), {200, 3, {}}); }
 
 // Eight cells and more meet in a place: its many names are welded into one.
 TEST(SmallPlaces, InALatticeAreWelded) {
-    FractureOptions options;
-    for (uint32_t s = 0; s < 64; ++s)
-        options.given_sites.push_back({(s % 4 - 1.5) / 4, (s / 4 % 4 - 1.5) / 4, (s / 16 - 1.5) / 4});
+    FractureOptions options = latticeSites(.25);
     std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(1));
     const DeviceEvent event(solidOf("cube"), options, Until::Places);
     const Places places{event};

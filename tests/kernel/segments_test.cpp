@@ -125,9 +125,7 @@ TEST(Segments, OfShellsWithinShells) {
 // Bisectors along the faces of the cube, and cells that meet in lattice points.
 TEST(SmallSegments, OfALattice) {
     for (const double apart : {.25, .5}) {
-        FractureOptions options;
-        for (uint32_t s = 0; s < 64; ++s)
-            options.given_sites.push_back({(s % 4 - 1.5) * apart, (s / 4 % 4 - 1.5) * apart, (s / 16 - 1.5) * apart});
+        FractureOptions options = latticeSites(apart);
         for (uint32_t seed = 0; seed < 4; ++seed) {
             std::shuffle(options.given_sites.begin(), options.given_sites.end(), std::mt19937(seed));
             expectCaps(solidOf("cube"), options);

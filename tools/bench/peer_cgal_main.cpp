@@ -32,6 +32,7 @@ Surface surfaceOf(const bench::Model& model) {
 // What an application would do with a convex cell: its hull, and the intersection of that with the model.
 bool intersect(const Surface& model, const std::vector<bench::Point>& corners, Surface& fragment) {
     std::vector<Kernel::Point_3> points;
+    points.reserve(corners.size());
     for (const bench::Point& p : corners)
         points.emplace_back(p[0], p[1], p[2]);
     Surface hull, copy = model;
