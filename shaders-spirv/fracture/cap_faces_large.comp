@@ -43,7 +43,7 @@ shared uint outers[MAX_LOOPS];
 shared uint holes[MAX_LOOPS];
 shared uint lane_pick[LANES];
 shared int64_t lane_key[LANES];
-shared uint node_total, alive_total, reflex_total, cleared, hole_total, outer_total;
+shared uint node_total, alive_total, reflex_total, spike_total, cleared, hole_total, outer_total;
 
 uint base, plane_u, plane_w;
 
@@ -342,10 +342,11 @@ bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c) {
     return (turn(from, x, p) > 0 && turn(x, to, p) > 0) || (turn(from, x, n) > 0 && turn(x, to, n) > 0);
 }
 
-// A tip where the outline turns back on itself, or stands still: nothing lies between its edges.
+// A tip where the outline turns back on itself, or stands still: nothing lies between its edges. Spikes go before ears: where
+// a hole fills its outline, all of it is spikes, one after the other, while its ears seem to be there twice.
 bool isSpike(ivec2 a, ivec2 b, ivec2 c) {
     ivec2 u = a - b, w = c - b;
-    return signOf(int64_t(u.x) * int64_t(w.x) + int64_t(u.y) * int64_t(w.y)) > 0 || u == ivec2(0) || w == ivec2(0);
+    return turn(a, b, c) == 0 && (signOf(int64_t(u.x) * int64_t(w.x) + int64_t(u.y) * int64_t(w.y)) > 0 || u == ivec2(0) || w == ivec2(0));
 }
 
 uint priorityOf(uint k) { return (k * 0x9e3779b1u) ^ (k >> 7); }
@@ -386,6 +387,7 @@ void main() {
     for (uint round = 0u; round < rounds && !finished; round++) {
         if (lane == 0u) {
             reflex_total = 0u;
+            spike_total = 0u;
             alive_total = 0u;
             cleared = 0u;
         }
@@ -398,7 +400,9 @@ void main() {
                 } else {
                     rings[base + k].w = 0u;
                     atomicAdd(alive_total, 1u);
-                    if (turn(at(previousOf(k)), at(k), at(nextOf(k))) <= 0) reflex_list[atomicAdd(reflex_total, 1u)] = k;
+                    ivec2 a = at(previousOf(k)), b = at(k), c = at(nextOf(k));
+                    if (turn(a, b, c) <= 0) reflex_list[atomicAdd(reflex_total, 1u)] = k;
+                    if (isSpike(a, b, c)) atomicAdd(spike_total, 1u);
                 }
             }
         }
@@ -409,8 +413,9 @@ void main() {
             uint p = candidate ? previousOf(k) : 0u, s = candidate ? nextOf(k) : 0u;
             ivec2 a = at(p), b = at(k), c = at(s);
             int size = turn(a, b, c);
-            bool test = candidate && size > 0 && phase < 2u && budget > 0u;
-            bool ear = candidate && (size > 0 || (size == 0 && (phase >= 1u || isSpike(a, b, c))) || phase >= 3u);
+            bool spikes = spike_total != 0u;
+            bool test = candidate && size > 0 && phase < 2u && budget > 0u && !spikes;
+            bool ear = candidate && (spikes ? isSpike(a, b, c) : size > 0 || (phase >= 1u && size == 0) || phase >= 3u);
             for (uint r = 0u; r < reflex_total && test && ear; r++) {
                 uint q = reflex_list[r];
                 bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;

@@ -1,19 +1,21 @@
-// Finds points that coincide, word for word (-0.0 is 0.0): as coordinates of the output, so that no two vertices of a fragment
-// are at one place. A slot of the table belongs to one position and ends up holding the lowest id
+// Finds points that coincide, word for word (-0.0 is 0.0). A slot of the table belongs to one position and ends up holding the lowest id
 // there, whoever came first: which slot that is depends on the run, the classes and their lowest ids do not.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 
-#define WORDS 3
-#ifndef STRIDE
-#define STRIDE 4
+#ifndef WORDS
+#define WORDS 6
+#define STRIDE 6
 #endif
 FLAT_KERNEL;
 UPDATES(0, uint, counts);
 READS(1, uint, points);
 UPDATES(2, uint, point_table); // id + 1; 0: free
 WRITES(3, uint, point_slots);
+#ifdef THROUGH
+READS(4, uint, first_points); // the point to look at in place of each
+#endif
 layout(push_constant) uniform Push {
     uint length;
     uint length_count;
@@ -21,6 +23,9 @@ layout(push_constant) uniform Push {
 };
 
 uint wordOf(uint id, uint k) {
+#ifdef THROUGH
+    id = first_points[id];
+#endif
     uint word = points[STRIDE * id + k];
     return word == 0x80000000u ? 0u : word;
 }

@@ -2,6 +2,7 @@
 #include "tests/kernel/lab.h"
 
 #include <map>
+#include <numeric>
 #include <random>
 
 namespace kernel_test {
@@ -32,6 +33,12 @@ TEST(SmallCompact, ListsTheFlaggedInOrder) {
 struct WeldPush {
     uint32_t length, length_count, table_mask;
 };
+
+std::vector<uint32_t> countUp(uint32_t count) {
+    std::vector<uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
+}
 
 constexpr uint32_t kMinusZero = 0x80000000;
 using Place = std::array<uint32_t, 4>; // the last word is none of it
@@ -66,9 +73,9 @@ TEST(SmallWeldPoints, GivesEveryPointTheLowestIdAtItsPlace) {
         Counts counts;
         const engine::Buffer in = bufferOf(points), table = bufferOf(std::vector<uint32_t>(slots));
         const engine::Buffer at = blankBuffer<uint32_t>(n), welded = blankBuffer<uint32_t>(n);
-        const engine::Buffer shared = bufferOf(std::vector<uint32_t>(n));
+        const engine::Buffer shared = bufferOf(std::vector<uint32_t>(n)), itself = bufferOf(countUp(n));
         onDevice([&](engine::Commands& commands) {
-            commands.dispatch(kernel("weld_points"), n, WeldPush{n, NO_INDEX, slots - 1}, {counts.words, in, table, at});
+            commands.dispatch(kernel("weld_positions"), n, WeldPush{n, NO_INDEX, slots - 1}, {counts.words, in, table, at, itself});
             commands.dispatch(kernel("resolve_points"), n, LengthPush{n, NO_INDEX}, {counts.words, table, at, welded, shared});
         });
         EXPECT_EQ(valuesOf<uint32_t>(welded, n), expected) << n;
@@ -83,8 +90,9 @@ TEST(SmallWeldPoints, ReportsATableThatIsFull) {
         points.push_back({k, 0, 0, 0});
     Counts counts;
     const engine::Buffer in = bufferOf(points), table = bufferOf(std::vector<uint32_t>(128)), at = blankBuffer<uint32_t>(200);
+    const engine::Buffer itself = bufferOf(countUp(200));
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("weld_points"), 200, WeldPush{200, NO_INDEX, 127}, {counts.words, in, table, at});
+        commands.dispatch(kernel("weld_positions"), 200, WeldPush{200, NO_INDEX, 127}, {counts.words, in, table, at, itself});
     });
     EXPECT_GT(counts[STATUS_BAD_WELD], 0u);
     EXPECT_EQ(counts[STATUS_FAILED], FAILED_CAPACITY);

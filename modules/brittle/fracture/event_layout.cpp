@@ -152,6 +152,7 @@ void takePlaces(const Input& in, Taker& take) {
     uint64_t points = c.points();
     b.point_table = take.words(c.pointTable());
     b.point_slots = take.words(points);
+    b.exact_welded = take.words(points);
 }
 
 void takeDepth(const Input& in, Taker& take) {

@@ -72,7 +72,7 @@ struct EventBuffers {
         polygon_offsets;
     View polygon_sides, polygon_corners, triples, triple_signs;
     // places
-    View points, positions, point_table, point_slots, welded, shared_points;
+    View points, positions, point_table, point_slots, exact_welded, welded, shared_points;
     // depth and caps
     View triple_edges, edge_triple_counts, edge_triple_offsets, edge_triple_cursors, edge_sums, loose_triples, ordered_triples;
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;

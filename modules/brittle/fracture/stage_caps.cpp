@@ -8,6 +8,24 @@ constexpr uint32_t kCount = 0, kFill = 1;
 // Each round follows up to eight links: seven rounds reach two million.
 constexpr uint32_t kDepthRounds = 7;
 
+// First what is one place exactly, then what is one place in the output: of a class either way one point is left.
+void recordWelding(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    struct WeldPush {
+        uint32_t length, length_count, table_mask;
+    } weld = {0, COUNT_POINTS, static_cast<uint32_t>(b.point_table.size / 4) - 1};
+    struct ResolvePush {
+        uint32_t length, length_count;
+    } resolve = {0, COUNT_POINTS};
+    const Length points = Length::counted(COUNT_POINTS);
+    r.run("weld_points", points, weld, {r.counts(), b.points, b.point_table, b.point_slots});
+    r.run("resolve_points", points, resolve, {r.counts(), b.point_table, b.point_slots, b.exact_welded, b.shared_points});
+    r.clear({b.point_table});
+    r.run("weld_positions", points, weld, {r.counts(), b.positions, b.point_table, b.point_slots, b.exact_welded});
+    r.run("resolve_points", points, resolve, {r.counts(), b.point_table, b.point_slots, b.welded, b.shared_points});
+}
+
 } // namespace
 
 void recordPlaces(const Event& e) {
@@ -35,15 +53,7 @@ void recordPlaces(const Event& e) {
         COUNT_POINTS, c.points(), c.vertices, 0, {COUNT_CROSSINGS, COUNT_TRIPLES, COUNT_VORONOI_VERTICES, NO_INDEX},
         {1, 1, 1, 0}};
     r.runGroups("publish_sum", 1, all, {r.counts(), r.args()});
-    struct WeldPush {
-        uint32_t length, length_count, table_mask;
-    } weld = {0, COUNT_POINTS, static_cast<uint32_t>(b.point_table.size / 4) - 1};
-    r.run("weld_points", Length::counted(COUNT_POINTS), weld, {r.counts(), b.positions, b.point_table, b.point_slots});
-    struct ResolvePush {
-        uint32_t length, length_count;
-    } resolve = {0, COUNT_POINTS};
-    r.run("resolve_points", Length::counted(COUNT_POINTS), resolve,
-          {r.counts(), b.point_table, b.point_slots, b.welded, b.shared_points});
+    recordWelding(e);
     r.commands().endLabel();
 }
 

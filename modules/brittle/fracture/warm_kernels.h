@@ -14,7 +14,7 @@ inline std::vector<std::string_view> kernelsToWarm() {
             "mass_properties", "decide_fates", "emit", "emit_objects", "allocate", "unite_triangles", "flag_components",
             "key_triangles", "publish_tiles", "radix_count", "radix_scatter", "bound_components", "classify_pieces",
             "list_caps", "list_fans", "list_whole", "order_triples", "cap_intervals", "start_depth", "jump_depth",
-            "group_triples", "assign_triples", "place_voronoi", "weld_points", "cap_cuts", "flag_faces"};
+            "group_triples", "assign_triples", "place_voronoi", "weld_points", "weld_positions", "cap_cuts", "flag_faces"};
 }
 
 } // namespace brittle
