@@ -1,5 +1,5 @@
 // Both sides of every cap: the lower cell's, and its mirror image for the other, always in a row. Lists those that may be
-// one side of a flap: only corners that fell together can make two caps of a cell coincide.
+// one side of a flap: only corners that fell together, or lie in one line, can make two caps of a cell coincide.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -17,7 +17,18 @@ WRITES(8, uint, sources);
 WRITES(9, uint, parents);
 READS(10, uint, shared_points);
 WRITES(11, uint, suspects);
-layout(push_constant) uniform Push { uint triangle_count; };
+READS(12, vec4, positions);
+layout(push_constant) uniform Push {
+    uint triangle_count;
+    float step_size;
+};
+
+// Corners in one line, as those on a Voronoi edge: two faces that meet there may have the same sliver.
+bool isThin(uvec3 t) {
+    vec3 u = positions[t.y].xyz - positions[t.x].xyz, w = positions[t.z].xyz - positions[t.x].xyz, v = w - u;
+    float longest = max(dot(u, u), max(dot(v, v), dot(w, w)));
+    return length(cross(u, w)) <= 4.0 * step_size * sqrt(longest);
+}
 
 void main() {
     uint at = flatIndex();
@@ -35,7 +46,7 @@ void main() {
             sources[to + 1u] = INNER_BIT | f;
             parents[to] = to;
             parents[to + 1u] = to + 1u;
-            bool suspect = !flat_ && (shared_points[cap.x] | shared_points[cap.y] | shared_points[cap.z]) != 0u;
+            bool suspect = !flat_ && ((shared_points[cap.x] | shared_points[cap.y] | shared_points[cap.z]) != 0u || isThin(cap.xyz));
             if (suspect) suspects[atomicAdd(counts[COUNT_SUSPECTS], 1u)] = to;
             to += 2u;
             left--;

@@ -111,8 +111,11 @@ TEST_F(Cli, BadUsageIsRefused) {
 TEST_F(Cli, OddSitesFilesAreRefused) {
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", "/dev/zero"}, 2);
-    std::ofstream(path("mark.txt")) << "\xEF\xBB\xBF" "0 0 0\n";
-    EXPECT_EQ(runProgram("brittle", {"shatter", "builtin:cube", "--sites-file", path("mark.txt"), "-o", path("mark.glb")}).exit_code, 0);
+    std::ofstream(path("mark.txt")) << "\xEF\xBB\xBF"
+                                       "0 0 0\n";
+    EXPECT_EQ(
+        runProgram("brittle", {"shatter", "builtin:cube", "--sites-file", path("mark.txt"), "-o", path("mark.glb")}).exit_code,
+        0);
 }
 
 TEST_F(Cli, AnUnwritableOutputIsRefused) {

@@ -75,7 +75,8 @@ TEST(SmallWeldPoints, GivesEveryPointTheLowestIdAtItsPlace) {
         const engine::Buffer at = blankBuffer<uint32_t>(n), welded = blankBuffer<uint32_t>(n);
         const engine::Buffer shared = bufferOf(std::vector<uint32_t>(n)), itself = bufferOf(countUp(n));
         onDevice([&](engine::Commands& commands) {
-            commands.dispatch(kernel("weld_positions"), n, WeldPush{n, NO_INDEX, slots - 1}, {counts.words, in, table, at, itself});
+            commands.dispatch(kernel("weld_positions"), n, WeldPush{n, NO_INDEX, slots - 1},
+                              {counts.words, in, table, at, itself});
             commands.dispatch(kernel("resolve_points"), n, LengthPush{n, NO_INDEX}, {counts.words, table, at, welded, shared});
         });
         EXPECT_EQ(valuesOf<uint32_t>(welded, n), expected) << n;

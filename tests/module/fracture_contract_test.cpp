@@ -292,6 +292,41 @@ TEST(FractureCavities, StayWithThePieceAroundThem) {
     expectContractOf(modelFrom(cheese), {1, 8, 100});
 }
 
+// A body-centered lattice over the unit cube: walls of hollows lie in bisectors, to within a step of the grid.
+FractureOptions centeredLattice() {
+    FractureOptions options;
+    for (int x = 0; x <= 6; ++x)
+        for (int y = 0; y <= 6; ++y)
+            for (int z = 0; z <= 6; ++z)
+                for (const double shift : {-0.5, -0.5 + 1.0 / 12})
+                    options.given_sites.push_back({x / 6.0 + shift, y / 6.0 + shift, z / 6.0 + shift});
+    return options;
+}
+
+brittle::ImportedMesh boxOf(const brittle::Double3& lower, const brittle::Double3& upper) {
+    brittle::ImportedMesh box = brittle::makeCube();
+    for (brittle::Double3& p : box.positions)
+        for (size_t k = 0; k < 3; ++k)
+            p[k] = p[k] < 0 ? lower[k] : upper[k];
+    return box;
+}
+
+TEST(FractureTies, WallsOfHollowsInBisectors) {
+    using namespace support;
+    const brittle::ImportedMesh outside = boxOf({-.5, -.5, -.5}, {.5, .5, .5});
+    for (const auto& [lower, upper] : {std::pair{-.25, .25}, std::pair{-1. / 3, 0.}, std::pair{-.2, .1}})
+        expectContract(modelFrom(outside + turnedOver(boxOf({lower, lower, lower}, {upper, upper, upper}))), centeredLattice());
+}
+
+TEST(FractureTies, ThinPlates) {
+    for (const double thickness : {1e-2, 1e-4, 1e-6}) {
+        SCOPED_TRACE(thickness);
+        const Model plate = modelFrom(boxOf({-.5, -.5, 0}, {.5, .5, thickness}));
+        expectContract(plate, centeredLattice());
+        expectContractOf(plate, {2, 150});
+    }
+}
+
 // More triangles around the hollow than one lane may walk.
 TEST(FractureLimits, AHollowModelOfManyTriangles) { expectContractOf(hollowSphere(6), {1, 3}); }
 

@@ -93,7 +93,8 @@ engine::Result<void> Run::checkPathsApart() const {
     if (sameFile(options_.picture, options_.output)) return refused(options_.output, "fragments and picture need a file each");
     for (const std::string& output : {options_.output, options_.picture})
         for (const std::string& input : {options_.model, options_.sites_file})
-            if (sameFile(output, input)) return refused(output, "is read as input and would be overwritten; write to another file");
+            if (sameFile(output, input))
+                return refused(output, "is read as input and would be overwritten; write to another file");
     return {};
 }
 
@@ -162,7 +163,9 @@ engine::Result<void> Run::verify() {
     outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
     const std::string violation = outcome_.contract.violation();
     if (violation.empty()) return {};
-    return aboutModel({engine::ErrorCode::Internal, "the fragments break their contract: " + violation + "; nothing was written; move the sites a little, and please report it"});
+    return aboutModel(
+        {engine::ErrorCode::Internal, "the fragments break their contract: " + violation +
+                                          "; nothing was written; move the sites a little, and please report it"});
 }
 
 engine::Result<void> Run::writeFragments() {

@@ -100,13 +100,18 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     auto options = std::make_shared<ShatterOptions>();
     command->add_option("MODEL", options->model, "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME")->required();
-    command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")->required()->check(someText);
+    command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")
+        ->required()
+        ->check(someText);
     CLI::Option* sites = command->add_option("--sites", options->sites, "how many sites, and so about how many fragments")
                              ->capture_default_str();
     sites->check(CLI::Range(1u, 1u << 24));
     command->add_option("--seed", options->seed, "another seed breaks it otherwise")->capture_default_str()->check(wholeNumber);
-    command->add_option("--sites-file", options->sites_file, "sites from a text file instead")->excludes(sites)->check(someText);
-    command->add_flag("--verify", options->verify, "say in words what the check of the fragments found; nothing is written where it fails");
+    command->add_option("--sites-file", options->sites_file, "sites from a text file instead")
+        ->excludes(sites)
+        ->check(someText);
+    command->add_flag("--verify", options->verify,
+                      "say in words what the check of the fragments found; nothing is written where it fails");
     command->add_option("--picture", options->picture, "also draw them into this PNG file")->check(someText);
     command->add_option("--explode", options->explode, "in the picture, move fragments this many times further from the center")
         ->capture_default_str()

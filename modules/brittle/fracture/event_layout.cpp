@@ -195,6 +195,7 @@ void takePieces(const Input& in, Taker& take) {
     b.suspects = take.words(c.caps);
     b.flap_table = take.words(4ull * c.flapTable());
     b.flap_slots = take.words(c.rare.flaps ? 2ull * c.caps : 1);
+    b.flap_partners = take.words(c.rare.flaps ? 2ull * c.caps : 1);
     b.edge_table = take.words(c.edgeTable());
     b.flags = take.quads(n);
     b.flag_offsets = take.quads(n + 1);
@@ -220,7 +221,7 @@ void takePieces(const Input& in, Taker& take) {
 } // namespace
 
 uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
-            EventBuffers& b) {
+                EventBuffers& b) {
     const Input in = {c, mesh, columns, b};
     Taker take(arena);
     takeKept(in, take);

@@ -13,6 +13,18 @@ struct Extents {
     double edge_length = 0, longest_edge = 0, area = 0, cell = 1;
 };
 
+// Thinner than a cell, a plate is cut in two directions only, and a rod in one.
+double usualCell(const EventGrid& grid, uint32_t site_count) {
+    std::array<double, 3> extent;
+    for (size_t k = 0; k < 3; k++)
+        extent[k] = grid.mesh_high[k] - grid.mesh_low[k] + 1.0;
+    std::sort(extent.begin(), extent.end());
+    double cell = std::cbrt(extent[0] * extent[1] * extent[2] / site_count);
+    if (extent[0] < cell) cell = std::sqrt(extent[1] * extent[2] / site_count);
+    if (extent[1] < cell) cell = extent[2] / site_count;
+    return std::max(cell, 1.0);
+}
+
 // Lengths in grid steps: a cell's usual size, and how much surface and edge there is to be cut.
 Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count) {
     Extents x;
@@ -33,10 +45,7 @@ Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const Eve
         Double3 n = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
         x.area += 0.5 * std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     }
-    double volume = 1;
-    for (size_t k = 0; k < 3; k++)
-        volume *= grid.mesh_high[k] - grid.mesh_low[k] + 1.0;
-    x.cell = std::cbrt(volume / site_count);
+    x.cell = usualCell(grid, site_count);
     return x;
 }
 

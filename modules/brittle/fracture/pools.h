@@ -78,14 +78,14 @@ struct EventBuffers {
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
     View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_counts, cap_offsets, nodes, rings, loops;
     // pieces
-    View pieces, sources, parents, suspects, flap_table, flap_slots, edge_table, flags, flag_offsets, keys, values, other_keys,
-        other_values, histogram, digit_offsets;
+    View pieces, sources, parents, suspects, flap_table, flap_slots, flap_partners, edge_table, flags, flag_offsets, keys,
+        values, other_keys, other_values, histogram, digit_offsets;
     View components, component_start, records, fates, cavities, ordered_cavities, classes, class_offsets, demands,
         demand_offsets, shares;
 };
 
 // Returns the bytes of the largest view.
 uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
-            EventBuffers& b);
+                EventBuffers& b);
 
 } // namespace brittle

@@ -15,9 +15,13 @@ void recordPieces(const Event& e) {
           {r.counts(), b.mesh_triangles, b.owners, b.triangle_slot, b.welded, b.pieces, b.sources, b.parents});
     r.run("list_fans", Length::counted(COUNT_POLYGONS), c.triangles,
           {r.counts(), b.polygons, b.polygon_offsets, b.polygon_corners, b.welded, b.pieces, b.sources, b.parents});
-    r.run("list_caps", Length::counted(COUNT_FACES), c.triangles,
+    struct CapPush {
+        uint32_t triangle_count;
+        float step;
+    } caps = {c.triangles, e.grid.step};
+    r.run("list_caps", Length::counted(COUNT_FACES), caps,
           {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources,
-           b.parents, b.shared_points, b.suspects});
+           b.parents, b.shared_points, b.suspects, b.positions});
     struct SumPush {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
     } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX},
@@ -36,8 +40,10 @@ void recordFlaps(const Event& e) {
     r.runGroups("publish_sum", 1, sides, {r.counts(), r.args()});
     r.run("find_flaps", Length::counted(COUNT_SUSPECT_SIDES), c.flapTable() - 1,
           {r.counts(), b.suspects, b.pieces, b.flap_table, b.flap_slots});
+    r.run("pair_flaps", Length::counted(COUNT_SUSPECT_SIDES), engine::NoPush{},
+          {r.counts(), b.suspects, b.flap_table, b.flap_slots, b.pieces, b.flap_partners});
     r.run("drop_flaps", Length::counted(COUNT_SUSPECT_SIDES), engine::NoPush{},
-          {r.counts(), b.suspects, b.flap_table, b.flap_slots, b.pieces, b.sources, b.parents});
+          {r.counts(), b.suspects, b.flap_partners, b.pieces, b.sources, b.parents});
 }
 
 // Stable, by component; the number of passes follows from the most components that the pool admits.
