@@ -253,6 +253,18 @@ TEST(FractureLimits, TwentyThousandCellsInACube) {
     expectContract(modelFrom("builtin:cube"), options);
 }
 
+// The lists of the later stages would not fit.
+TEST(FractureLimits, AHundredThousandCellsAlone) {
+    const Model cube = modelFrom("builtin:cube");
+    FractureOptions options;
+    options.site_count = 100'000;
+    options.only_cells = true;
+    const auto result = shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->counts.sites_used + result->counts.sites_welded, 100'000u);
+    EXPECT_TRUE(result->fragments.fragments.empty());
+}
+
 TEST(LongFractureLimits, FiftyThousandCellsInACube) {
     FractureOptions options;
     options.site_count = 50'000;

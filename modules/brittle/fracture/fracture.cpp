@@ -43,6 +43,7 @@ public:
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
+        if (options.only_cells) capacity = forCellsOnly(capacity);
         capacity.rare = met_.joined(capacity.rare);
         for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
             auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);

@@ -103,6 +103,14 @@ bool takeUp(bool& recorded, bool met) {
 
 } // namespace
 
+Capacities forCellsOnly(Capacities c) {
+    constexpr uint32_t kLittle = 16;
+    for (uint32_t* pool : {&c.crossings, &c.pairs, &c.polygons, &c.sides, &c.triples, &c.fans, &c.intervals, &c.segments,
+                           &c.caps, &c.pieces, &c.components, &c.fragments, &c.emitted})
+        *pool = std::min(*pool, kLittle);
+    return c;
+}
+
 bool Capacities::grow(const uint32_t* status) {
     const uint32_t* needed = status + STATUS_NEEDED;
     bool more = takeUp(rare.exact_cells, status[COUNT_EXACT_SMALL] != 0);

@@ -49,6 +49,8 @@ struct Capacities {
     bool grow(const uint32_t* status);
 };
 
+// Without the pools that only stages after the cells use.
+Capacities forCellsOnly(Capacities capacity);
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count);
 
 // Views into the scratch arena. Groups share memory where one is read for the last time before the other is first written.
