@@ -20,7 +20,7 @@ public:
     // `names` in the order in which to work on them: those first that the caller meets late and that take long. The library
     // and its device outlive the warm-up. Nothing is printed or returned: failures are left for those who ask for the kernel.
     KernelWarmup(Device& device, KernelLibrary& library, std::vector<std::string_view> names);
-    // Waits for the kernel that is being compiled, not for those that are left.
+    // Of a CPU device it waits for the kernel that is being compiled, not for those that are left; of a GPU for all.
     ~KernelWarmup() = default;
     // Waits until all are ready.
     void finish();

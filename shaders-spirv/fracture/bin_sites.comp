@@ -13,11 +13,11 @@ layout(push_constant) uniform Push {
     ivec4 bins;
     ivec4 box_low;
 };
+#include "lib/bin_lines.glsl"
 
 void main() {
     uint s = flatIndex();
     if (s >= counts[COUNT_SITES]) return;
-    ivec3 b = min((sites[s].xyz - box_low.xyz) / bins.w, bins.xyz - 1);
-    uint bin = uint((b.z * bins.y + b.y) * bins.x + b.x);
+    uint bin = binIndex(binOf(sites[s].xyz));
     loose_sites[bin_start[bin] + atomicAdd(bin_cursors[bin], 1u)] = s;
 }

@@ -3,7 +3,8 @@
 // Lanes of a subgroup take sites of neighboring bins. Walls of the box are mirrored sites, so that every plane is a bisector
 // d.w <= d.d, with d the way to the other site (exact in fp32) and w = 2 (v - site). Each corner keeps w and a bound of its
 // error; a test that does not clear the bounds (roundoff 2^-23 an operation, since Vulkan fixes no rounding mode; contraction
-// only helps) queues the cell for the exact kernel, and so does running out of planes, corners or turns.
+// only helps) is put off until the other cuts are made, and where it is still open then the cell is queued for the exact
+// kernel; so it is when it runs out of planes, corners or turns.
 //
 // An `if` is no saving where lanes run in step: the search for a bisector that cuts is a loop of its own, cutting another.
 // Looks at all corners are unrolled: with fixed places an array is as cheap as registers, with computed ones ten times dearer.
@@ -392,7 +393,7 @@ void main() {
     uint lane = flatIndex();
     if (lane >= min(slots, counts[COUNT_SITES])) return;
     ivec4 own = bin_sites[lane];
-    ivec3 site = own.xyz, home = min((own.xyz - box_low.xyz) / bins.w, bins.xyz - 1);
+    ivec3 site = own.xyz, home = binOf(own.xyz);
     status = CELL_OK;
     phase = kRingOne;
     row = 0u;

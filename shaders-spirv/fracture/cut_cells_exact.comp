@@ -185,7 +185,7 @@ void listSites(uint lane, uint k, uint total, int seen) {
     uint before = low > 0u ? line_end[low - 1u] : 0u;
     ivec4 q = bin_sites[is_site ? line_first[low] + k - before : 0u];
     vec3 d = vec3(q.xyz - site);
-    ivec3 away = abs(min((q.xyz - box_low.xyz) / bins.w, bins.xyz - 1) - home);
+    ivec3 away = abs(binOf(q.xyz) - home);
     bool fresh = is_site && uint(q.w) != self && max(away.x, max(away.y, away.z)) > seen;
     uint key = keyOf(d);
     if (fresh && key != NO_INDEX && dot(d, d) <= uintBitsToFloat(reach_bits)) {
@@ -479,7 +479,7 @@ void main() {
     if (counts[STATUS_FAILED] != 0u || (!queued && group >= min(cell_count, counts[COUNT_SITES]))) return;
     self = queued ? queue[uint(box_low.w) + group] : group;
     site = sites[self].xyz;
-    home = min((site - box_low.xyz) / bins.w, bins.xyz - 1);
+    home = binOf(site);
     status = CELL_OK;
     budget = kTurnBudget;
     startFromBox(lane);

@@ -13,6 +13,7 @@ layout(push_constant) uniform Push {
     ivec4 box_low;
     uint site_count;
 };
+#include "lib/bin_lines.glsl"
 
 void main() {
     uint s = flatIndex();
@@ -21,6 +22,5 @@ void main() {
     if (site_slot[s + 1u] == at) return;
     ivec3 p = ivec3(int(raw_sites[3u * s]), int(raw_sites[3u * s + 1u]), int(raw_sites[3u * s + 2u]));
     sites[at] = ivec4(p, int(s));
-    ivec3 b = min((p - box_low.xyz) / bins.w, bins.xyz - 1);
-    atomicAdd(bin_counts[(b.z * bins.y + b.y) * bins.x + b.x], 1u);
+    atomicAdd(bin_counts[binIndex(binOf(p))], 1u);
 }

@@ -14,12 +14,13 @@ layout(push_constant) uniform Push {
     ivec4 bins;
     ivec4 box_low;
 };
+#include "lib/bin_lines.glsl"
 
 void main() {
     uint s = flatIndex();
     if (s >= counts[COUNT_SITES]) return;
-    ivec3 p = sites[s].xyz, b = min((p - box_low.xyz) / bins.w, bins.xyz - 1);
-    uint bin = uint((b.z * bins.y + b.y) * bins.x + b.x), first = bin_start[bin], last = bin_start[bin + 1u], rank = 0u;
+    ivec3 p = sites[s].xyz;
+    uint bin = binIndex(binOf(p)), first = bin_start[bin], last = bin_start[bin + 1u], rank = 0u;
     if (last - first > MOST_IN_A_BIN) {
         atomicMax(counts[STATUS_CROWDED], last - first);
         atomicOr(counts[STATUS_FAILED], FAILED_CELLS);

@@ -40,15 +40,16 @@ void main() {
     uint k = flatIndex(), sides = 2u * counts[COUNT_SUSPECTS];
     if (k >= sides || counts[STATUS_FAILED] != 0u) return;
     uint slot = flap_slots[k], t = suspectTriangle(k);
-    if (slot == NO_INDEX) return;
+    if (slot == NO_INDEX) {
+        partners[k] = NO_INDEX;
+        return;
+    }
     uint up = flap_table[4u * slot + 2u], down = flap_table[4u * slot + 3u], other = NO_INDEX;
     if (up == 1u && down == 1u) other = (flap_table[4u * slot] - 1u) ^ (flap_table[4u * slot + 1u] - 1u) ^ t;
-    // Several flaps in one place pair off from the lowest.
-    bool many = min(up, down) > 0u && max(up, down) > 1u && max(up, down) <= 4u;
-    uint looked = many ? min(sides, MOST_TURNS / 8u) : 0u;
-    if (many) {
-        uint rank = rankOf(slot, turnsUp(t), t, looked);
-        if (rank < min(up, down)) other = ranked(slot, !turnsUp(t), rank, looked);
+    // Several flaps in one place pair off from the lowest; where all sides are too many for a lane, they stay.
+    if (min(up, down) > 0u && max(up, down) > 1u && max(up, down) <= 4u && sides <= MOST_TURNS / 8u) {
+        uint rank = rankOf(slot, turnsUp(t), t, sides);
+        if (rank < min(up, down)) other = ranked(slot, !turnsUp(t), rank, sides);
     }
     partners[k] = other;
 }

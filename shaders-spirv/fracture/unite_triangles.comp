@@ -34,8 +34,7 @@ void main() {
             uint other = held == 0u ? t : (held - 1u) / 3u;
             bool same = held != 0u && edgeKey(pieces[other], (held - 1u) % 3u) == key;
             settled = held == 0u || same;
-            bool united = unite(same ? other : t, t);
-            settled = settled && united;
+            if (same) settled = unite(t, other);
         }
         if (!settled) atomicAdd(counts[STATUS_BAD_UNION], 1u);
     }

@@ -1,4 +1,7 @@
-// Lines of search bins along x. Wants the push constants bins and box_low.
+// The search bins, and lines of them along x. Wants the push constants bins and box_low.
+
+ivec3 binOf(ivec3 place) { return min((place - box_low.xyz) / bins.w, bins.xyz - 1); }
+uint binIndex(ivec3 bin) { return uint((bin.z * bins.y + bin.y) * bins.x + bin.x); }
 
 // Way from a site to a bin along one axis: to its nearest and its furthest place.
 vec2 spanOf(int bin, int from, int low) { return vec2(float(low + bin * bins.w - from), float(low + (bin + 1) * bins.w - from)); }

@@ -37,12 +37,6 @@ CapBuffers buffersOf(const std::vector<CapPolygon>& polygons, const CapBasis& ba
     return all;
 }
 
-std::vector<uint32_t> countUp(size_t count) {
-    std::vector<uint32_t> numbers(count);
-    std::iota(numbers.begin(), numbers.end(), 0u);
-    return numbers;
-}
-
 // As list_caps reads them: the first so many slots of a face that are filled, without triangles that name a corner twice.
 std::vector<Grid3> trianglesOf(const CapBuffers& all, size_t f, uint32_t count, const std::vector<Word4>& slots,
                                uint32_t& collapsed) {

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,12 @@ std::vector<T> valuesOf(const engine::Buffer& buffer, size_t count) {
     ENGINE_ASSERT(count * sizeof(T) <= buffer.size());
     const T* values = buffer.mappedAs<T>();
     return {values, values + count};
+}
+
+inline std::vector<uint32_t> countUp(size_t count) {
+    std::vector<uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
 }
 
 // Records what `record` adds, submits it and waits. A mistake in that ends the program: what follows would read garbage.

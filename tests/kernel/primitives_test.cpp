@@ -2,7 +2,6 @@
 #include "tests/kernel/lab.h"
 
 #include <map>
-#include <numeric>
 #include <random>
 
 namespace kernel_test {
@@ -33,12 +32,6 @@ TEST(SmallCompact, ListsTheFlaggedInOrder) {
 struct WeldPush {
     uint32_t length, length_count, table_mask;
 };
-
-std::vector<uint32_t> countUp(uint32_t count) {
-    std::vector<uint32_t> numbers(count);
-    std::iota(numbers.begin(), numbers.end(), 0u);
-    return numbers;
-}
 
 constexpr uint32_t kMinusZero = 0x80000000;
 using Place = std::array<uint32_t, 4>; // the last word is none of it

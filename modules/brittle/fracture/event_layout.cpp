@@ -7,8 +7,7 @@
 namespace brittle {
 namespace {
 
-// Words a cell of the two larger exact kernels keeps in `raw`, and in its store.
-constexpr uint64_t kMediumRaw = 2 + 256 + 2 * 512, kLargeRaw = 2 + 2048 + 2 * 4096;
+// Words a cell of the two larger exact kernels keeps in its store.
 constexpr uint64_t kMediumStore = 8 * 256 + 23 * 512, kLargeStore = 8 * 2048 + 23 * 4096;
 
 class Taker {
@@ -117,7 +116,7 @@ void takeCells(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     EventBuffers& b = in.b;
     uint64_t n = c.sites;
-    b.raw = take.words(n * RAW_WORDS + c.exact_medium * kMediumRaw + c.exact_large * kLargeRaw);
+    b.raw = take.words(n * RAW_WORDS + uint64_t{c.exact_medium} * kMediumRaw + uint64_t{c.exact_large} * kLargeRaw);
     b.cell_raw = take.words(2 * n);
     b.queue = take.words(n + c.exact_medium + c.exact_large);
     b.store = take.words(std::max(c.exact_medium * kMediumStore, c.exact_large * kLargeStore));

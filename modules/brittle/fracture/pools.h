@@ -14,6 +14,9 @@
 
 namespace brittle {
 
+// Words a cell of the two larger exact kernels leaves in `raw`.
+constexpr uint32_t kMediumRaw = 2 + 256 + 2 * 512, kLargeRaw = 2 + 2048 + 2 * 4096;
+
 struct Capacities {
     uint32_t sites = 0, vertices = 0, edges = 0, triangles = 0, bins = 0; // exact
     uint32_t neighbors = 0, corners = 0, voronoi_vertices = 0, voronoi_edges = 0;

@@ -18,7 +18,7 @@ CutPush cutPush(const Event& e, uint32_t size_class) {
     const EventGrid& g = e.grid;
     const Capacities& c = e.capacity;
     const uint32_t queue[4] = {0, c.sites, c.sites + c.exact_medium, c.sites + c.exact_medium + c.exact_large};
-    const uint32_t raw_medium = c.sites * RAW_WORDS, raw_large = raw_medium + c.exact_medium * (2 + 256 + 2 * 512);
+    const uint32_t raw_medium = c.sites * RAW_WORDS, raw_large = raw_medium + c.exact_medium * kMediumRaw;
     const uint32_t base[3] = {0, raw_medium, raw_large}, next[3] = {c.exact_medium, c.exact_large, 0};
     return {g.bins,
             {g.box_low[0], g.box_low[1], g.box_low[2], static_cast<int32_t>(queue[size_class])},
