@@ -133,7 +133,9 @@ void Commands::dispatchGroups(const Kernel& kernel, uint32_t groups, Bytes push,
     }
     if (!prepare(kernel, push, buffers, nullptr)) return;
     const uint32_t rows = (groups - 1) / kMaxGroupsPerDimension + 1;
+    if (time_kernels_) beginSpan(kernel.name);
     device_.vk().vkCmdDispatch(commands_, (groups - 1) / rows + 1, rows, 1);
+    if (time_kernels_) timestamps_.end(commands_);
     ++dispatch_count_;
 }
 
@@ -143,7 +145,9 @@ void Commands::dispatchIndirect(const Kernel& kernel, BufferView args, Bytes pus
         return;
     }
     if (!prepare(kernel, push, buffers, &args)) return;
+    if (time_kernels_) beginSpan(kernel.name);
     device_.vk().vkCmdDispatchIndirect(commands_, args.buffer->handle(), args.offset);
+    if (time_kernels_) timestamps_.end(commands_);
     ++dispatch_count_;
 }
 
@@ -259,7 +263,7 @@ void Commands::beginLabel(std::string_view name) {
         fail({ErrorCode::Internal, "label \"" + std::string(name) + "\" begins inside another"});
         return;
     }
-    if (auto begun = timestamps_.begin(commands_, name); !begun) fail(begun.error());
+    if (!time_kernels_) beginSpan(name);
     if (!device_.hasDebugUtils()) return;
     const std::string terminated(name);
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
@@ -268,8 +272,12 @@ void Commands::beginLabel(std::string_view name) {
 }
 
 void Commands::endLabel() {
-    timestamps_.end(commands_);
+    if (!time_kernels_) timestamps_.end(commands_);
     if (device_.hasDebugUtils()) vkCmdEndDebugUtilsLabelEXT(commands_);
+}
+
+void Commands::beginSpan(std::string_view name) {
+    if (auto begun = timestamps_.begin(commands_, name); !begun) fail(begun.error());
 }
 
 void Commands::flush() {

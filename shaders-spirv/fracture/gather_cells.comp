@@ -1,4 +1,4 @@
-// Packs the cells: neighbors, corners by site ids, and numbers for the Voronoi vertices and edges each cell owns.
+// Packs the cells: neighbors, corners by site ids, and the Voronoi vertices and edges that each cell owns.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -13,6 +13,8 @@ WRITES(4, uint, neighbors);
 WRITES(5, uvec4, corners);
 WRITES(6, uvec2, corner_info);
 WRITES(7, uvec4, vertex_sites);
+WRITES(8, uvec4, edge_sites); // w: the corner at which the edge ends
+WRITES(9, uint, face_cells);  // the cell that each neighbor entry belongs to
 layout(push_constant) uniform Push { uint slots; };
 #include "lib/raw_cell.glsl"
 
@@ -23,7 +25,10 @@ void main() {
     uvec4 at = cell_offsets[cell];
     for (uint p = 0u; p < r.plane_count; p++) {
         uint id = raw[r.planes + p];
-        if (id < BOX_BASE) neighbors[at.x++] = id;
+        if (id < BOX_BASE) {
+            neighbors[at.x] = id;
+            face_cells[at.x++] = cell;
+        }
     }
     for (uint t = 0u; t < r.corner_count; t++) {
         uvec3 s = rawCorner(r, t);
@@ -32,8 +37,10 @@ void main() {
         corners[at.y] = uvec4(s, owned ? at.z : NO_INDEX);
         corner_info[at.y] = uvec2(cell, at.w);
         if (owned) vertex_sites[at.z] = uvec4(cell, low);
+        if (ownsEdge(cell, s.x, s.y)) edge_sites[at.w++] = uvec4(cell, s.xy, at.y);
+        if (ownsEdge(cell, s.y, s.z)) edge_sites[at.w++] = uvec4(cell, s.yz, at.y);
+        if (ownsEdge(cell, s.z, s.x)) edge_sites[at.w++] = uvec4(cell, s.zx, at.y);
         at.y++;
         at.z += owned ? 1u : 0u;
-        at.w += uint(ownsEdge(cell, s.x, s.y)) + uint(ownsEdge(cell, s.y, s.z)) + uint(ownsEdge(cell, s.z, s.x));
     }
 }

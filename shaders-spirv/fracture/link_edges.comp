@@ -1,4 +1,5 @@
-// Gives every Voronoi edge its three sites and the vertices at its two ends (NO_INDEX where it leaves the box).
+// Gives every Voronoi edge the vertices at its two ends (NO_INDEX where it leaves the box). A lane an edge: a lane a corner
+// would look for three, of which half of one is there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -8,37 +9,37 @@ FLAT_KERNEL;
 READS(0, uint, counts);
 READS(1, uvec4, cell_offsets);
 READS(2, uvec4, corners);
-READS(3, uvec2, corner_info);
-WRITES(4, uvec4, edge_sites);
-WRITES(5, uvec2, edge_ends);
-#include "lib/find_voronoi.glsl"
+READS(3, uvec4, edge_sites);
+WRITES(4, uvec2, edge_ends);
 
-// The third site of the corner of `cell` that holds (y, x) in this order.
-uint thirdBefore(uint cell, uint x, uint y) {
-    uint third = NO_INDEX;
-    uint last = cell_offsets[cell + 1u].y;
-    for (uint t = cell_offsets[cell].y; t < last; t++) {
+// The corner of the edge's own cell at which it begins: the one that holds (y, x) in this order.
+uint beginOf(uvec3 edge) {
+    uint begin = NO_INDEX, last = cell_offsets[edge.x + 1u].y;
+    for (uint t = cell_offsets[edge.x].y; t < last; t++) {
         uvec3 c = corners[t].xyz;
-        if (c.x == y && c.y == x) third = c.z;
-        if (c.y == y && c.z == x) third = c.x;
-        if (c.z == y && c.x == x) third = c.y;
+        bool found = (c.x == edge.z && c.y == edge.y) || (c.y == edge.z && c.z == edge.y) || (c.z == edge.z && c.x == edge.y);
+        begin = found ? t : begin;
     }
-    return third;
+    return begin;
+}
+
+// Numbered in the edge's own cell, unless the fourth cell at the vertex is lower: then it is found there.
+uint vertexAt(uvec3 edge, uvec4 corner) {
+    uint fourth = corner.x ^ corner.y ^ corner.z ^ edge.y ^ edge.z;
+    bool foreign = fourth < edge.x;
+    uint vertex = corner.w;
+    uint last = foreign ? cell_offsets[fourth + 1u].y : 0u;
+    for (uint t = foreign ? cell_offsets[fourth].y : 0u; t < last; t++) {
+        uvec4 c = corners[t];
+        vertex = sorted3(c.xyz) == edge ? c.w : vertex;
+    }
+    return vertex;
 }
 
 void main() {
-    uint t = flatIndex();
-    if (t >= counts[COUNT_CORNERS]) return;
-    uvec3 c = corners[t].xyz;
-    uvec2 info = corner_info[t];
-    uint cell = info.x, at = info.y;
-    for (uint k = 0u; k < 3u; k++) {
-        uint x = c[k], y = c[(k + 1u) % 3u];
-        if (ownsEdge(cell, x, y)) {
-            uint third = thirdBefore(cell, x, y);
-            edge_sites[at] = uvec4(cell, x, y, 0u);
-            edge_ends[at] = uvec2(findVoronoiVertex(sorted4(cell, uvec3(x, y, third))), findVoronoiVertex(sorted4(cell, c)));
-            at++;
-        }
-    }
+    uint e = flatIndex();
+    if (e >= counts[COUNT_VORONOI_EDGES] || counts[STATUS_FAILED] != 0u) return;
+    uvec4 edge = edge_sites[e];
+    uint begin = beginOf(edge.xyz);
+    edge_ends[e] = uvec2(vertexAt(edge.xyz, corners[begin]), vertexAt(edge.xyz, corners[edge.w]));
 }

@@ -1,17 +1,4 @@
-// Searches of the diagram's vertices and edges. Wants cell_offsets, corners and corner_info declared.
-uint findVoronoiVertex(uvec4 s) {
-    uint found = NO_INDEX;
-    bool real = s.w < BOX_BASE;
-    uint first = real ? cell_offsets[s.x].y : 0u, last = real ? cell_offsets[s.x + 1u].y : 0u;
-    for (uint k = first; k < last; k++) {
-        uvec4 c = corners[k];
-        if (sorted3(c.xyz) == s.yzw) {
-            found = c.w;
-            break;
-        }
-    }
-    return found;
-}
+// Wants cell_offsets, corners and corner_info declared.
 
 // Edge of cells i < j < k, or NO_INDEX.
 uint findVoronoiEdge(uint i, uint j, uint k) {

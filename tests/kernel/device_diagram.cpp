@@ -19,12 +19,13 @@ DeviceDiagram diagramOnDevice(const reference::SiteSet& set) {
                          info = blankBuffer<Word2>(counts[COUNT_CORNERS] + 1);
     const engine::Buffer vertices = blankBuffer<Word4>(counts[COUNT_VORONOI_VERTICES] + 1);
     const engine::Buffer edges = blankBuffer<Word4>(counts[COUNT_VORONOI_EDGES] + 1);
+    const engine::Buffer face_cells = blankBuffer<uint32_t>(counts[COUNT_NEIGHBORS] + 1);
     const engine::Buffer ends = blankBuffer<Word2>(counts[COUNT_VORONOI_EDGES] + 1);
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("gather_cells"), n, n,
-                          {counts.words, raw.at, raw.raw, offsets, neighbors, corners, info, vertices});
-        commands.dispatch(kernel("link_edges"), counts[COUNT_CORNERS], engine::NoPush{},
-                          {counts.words, offsets, corners, info, edges, ends});
+                          {counts.words, raw.at, raw.raw, offsets, neighbors, corners, info, vertices, edges, face_cells});
+        commands.dispatch(kernel("link_edges"), counts[COUNT_VORONOI_EDGES], engine::NoPush{},
+                          {counts.words, offsets, corners, edges, ends});
     });
     EXPECT_EQ(counts[STATUS_BAD_CELLS], 0u);
     return {valuesOf<Word4>(offsets, n + 1),
@@ -33,6 +34,7 @@ DeviceDiagram diagramOnDevice(const reference::SiteSet& set) {
             valuesOf<Word2>(info, counts[COUNT_CORNERS]),
             valuesOf<Word4>(vertices, counts[COUNT_VORONOI_VERTICES]),
             valuesOf<Word4>(edges, counts[COUNT_VORONOI_EDGES]),
+            valuesOf<uint32_t>(face_cells, counts[COUNT_NEIGHBORS]),
             valuesOf<Word2>(ends, counts[COUNT_VORONOI_EDGES])};
 }
 

@@ -11,6 +11,7 @@ struct DeviceDiagram {
     std::vector<Word4> corners;     // three sites in cyclic order, and the Voronoi vertex or NO_INDEX
     std::vector<Word2> corner_info; // cell, first edge
     std::vector<Word4> vertex_sites, edge_sites;
+    std::vector<uint32_t> face_cells;
     std::vector<Word2> edge_ends; // vertices, or NO_INDEX where the edge leaves the box
 };
 

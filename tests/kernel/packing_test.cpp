@@ -76,6 +76,8 @@ void expectPacked(const DeviceDiagram& diagram, const std::vector<VoronoiCell>& 
         ASSERT_EQ(to[1] - from[1], cells[cell].vertices.size()) << "cell " << cell;
         for (uint32_t t = from[1]; t < to[1]; ++t)
             ASSERT_EQ(diagram.corner_info[t][0], cell);
+        for (uint32_t k = from[0]; k < to[0]; ++k)
+            ASSERT_EQ(diagram.face_cells[k], cell);
     }
 }
 

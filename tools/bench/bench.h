@@ -25,13 +25,17 @@ struct BenchOptions {
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
     uint64_t seed = 1;
+    bool kernels = false; // time every kernel as well, in runs of their own
 };
+
+using Times = std::vector<std::pair<std::string, double>>; // milliseconds of device time, in order
 
 // Medians in milliseconds; 0 where there was no peer to run.
 struct CellsRow {
     uint32_t sites = 0;
     double ms = 0;        // device time of binning the sites and cutting the cells
     double voropp_ms = 0; // filling the container and computing every cell with its neighbors
+    Times kernels;        // where asked for
 };
 
 struct ShatterRow {
@@ -40,7 +44,7 @@ struct ShatterRow {
     double ms = 0;        // the whole call, from arrays in host memory to fragments in host memory
     double device_ms = 0; // from submission to completion
     double cgal_ms = 0;   // the hull of every cell and its intersection with the model
-    std::vector<std::pair<std::string, double>> stages; // device time, in order
+    Times stages, kernels; // kernels where asked for
 };
 
 struct StartupRow {

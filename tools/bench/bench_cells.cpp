@@ -15,13 +15,17 @@ Model unitCube() {
     return cube;
 }
 
-// One run of ours. Binning the sites belongs to it, as filling the container belongs to Voro++'s time.
-engine::Result<double> ourCells(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
-                                const std::vector<Point>& sites) {
+brittle::FractureOptions onlyCells(const std::vector<Point>& sites) {
     brittle::FractureOptions options;
     options.given_sites = sites;
     options.only_cells = true;
-    auto result = fracture.shatter(cube.mesh, cube.topology, options);
+    return options;
+}
+
+// One run of ours. Binning the sites belongs to it, as filling the container belongs to Voro++'s time.
+engine::Result<double> ourCells(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
+                                const std::vector<Point>& sites) {
+    auto result = fracture.shatter(cube.mesh, cube.topology, onlyCells(sites));
     if (!result) return result.error();
     return stageMs(*result, {"neighbor_grid", "cut_cells"});
 }
@@ -56,7 +60,11 @@ engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const B
         progress("cells of " + std::to_string(count) + " sites");
         const auto samples = alternate(**fracture, *cube, uniformSites(count, options.seed), options.rounds);
         if (!samples) return samples.error();
-        rows.push_back({count, median(samples->ours), median(samples->voropp)});
+        rows.push_back({count, median(samples->ours), median(samples->voropp), {}});
+        if (!options.kernels) continue;
+        auto kernels = kernelTimes(**fracture, *cube, onlyCells(uniformSites(count, options.seed)), options.rounds);
+        if (!kernels) return kernels.error();
+        rows.back().kernels = std::move(*kernels);
     }
     return rows;
 }

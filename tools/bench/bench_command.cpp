@@ -27,22 +27,28 @@ void addPeer(Json& row, const std::string& peer, double ms, double ours) {
     row["times_" + peer] = ours / ms;
 }
 
+Json sharesOf(const char* what, const bench::Times& times) {
+    double sum = 0;
+    for (const auto& [name, ms] : times)
+        sum += ms;
+    Json rows = Json::array();
+    for (const auto& [name, ms] : times)
+        rows.push_back({{what, name}, {"ms", ms}, {"share", sum > 0 ? ms / sum : 0}});
+    return rows;
+}
+
 Json toJson(const bench::CellsRow& cells) {
     Json row = {{"sites", cells.sites}, {"ms", cells.ms}, {"us_per_cell", 1000 * cells.ms / cells.sites}};
     addPeer(row, "voropp", cells.voropp_ms, cells.ms);
+    if (!cells.kernels.empty()) row["kernels"] = sharesOf("kernel", cells.kernels);
     return row;
 }
 
 Json toJson(const bench::ShatterRow& shatter) {
-    double sum = 0;
-    for (const auto& [name, ms] : shatter.stages)
-        sum += ms;
-    Json stages = Json::array();
-    for (const auto& [name, ms] : shatter.stages)
-        stages.push_back({{"stage", name}, {"ms", ms}, {"share", sum > 0 ? ms / sum : 0}});
     Json row = {{"sites", shatter.sites}, {"triangles", shatter.triangles}, {"fragments", shatter.fragments},
-                {"ms", shatter.ms},       {"device_ms", shatter.device_ms}, {"stages", stages}};
+                {"ms", shatter.ms},       {"device_ms", shatter.device_ms}, {"stages", sharesOf("stage", shatter.stages)}};
     addPeer(row, "cgal", shatter.cgal_ms, shatter.ms);
+    if (!shatter.kernels.empty()) row["kernels"] = sharesOf("kernel", shatter.kernels);
     return row;
 }
 
@@ -112,6 +118,7 @@ void addBench(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");
     command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
+    command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command->callback([options, &exit_code] { exit_code = runBench(*options); });
 }

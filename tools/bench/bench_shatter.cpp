@@ -37,7 +37,7 @@ engine::Result<void> runOurs(brittle::Fracture& fracture, const brittle::Prepare
 }
 
 ShatterRow rowOf(uint32_t count, size_t triangles, const Samples& samples) {
-    ShatterRow row{count, triangles, samples.fragments, median(samples.call), median(samples.device), median(samples.cgal), {}};
+    ShatterRow row{count, triangles, samples.fragments, median(samples.call), median(samples.device), median(samples.cgal), {}, {}};
     for (const std::string& name : samples.stage_order)
         row.stages.emplace_back(name, median(samples.stages.at(name)));
     return row;
@@ -70,6 +70,12 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
         const auto samples = alternate(**fracture, *model, count, options, true);
         if (!samples) return samples.error();
         rows.push_back(rowOf(count, model->mesh.triangles.size(), *samples));
+        if (!options.kernels) continue;
+        brittle::FractureOptions broken;
+        broken.given_sites = uniformSites(count, options.seed);
+        auto kernels = kernelTimes(**fracture, *model, broken, options.rounds);
+        if (!kernels) return kernels.error();
+        rows.back().kernels = std::move(*kernels);
     }
     return rows;
 }

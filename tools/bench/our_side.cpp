@@ -1,6 +1,7 @@
 #include "tools/bench/our_side.h"
 
 #include <algorithm>
+#include <map>
 
 namespace bench {
 
@@ -18,6 +19,23 @@ double stageMs(const brittle::FractureResult& result, std::initializer_list<std:
     for (const engine::Timing& timing : result.timings)
         if (std::find(stages.begin(), stages.end(), timing.name) != stages.end()) ms += timing.ms;
     return ms;
+}
+
+engine::Result<Times> kernelTimes(brittle::Fracture& fracture, const brittle::PreparedMesh& model,
+                                  brittle::FractureOptions options, uint32_t rounds) {
+    options.time_kernels = true;
+    std::map<std::string, std::vector<double>> samples;
+    for (uint32_t round = 0; round < rounds; ++round) {
+        auto result = fracture.shatter(model.mesh, model.topology, options);
+        if (!result) return result.error();
+        for (const engine::Timing& timing : result->timings)
+            samples[timing.name].push_back(timing.ms);
+    }
+    Times times;
+    for (const auto& [name, ms] : samples)
+        times.emplace_back(name, median(ms));
+    std::ranges::sort(times, std::ranges::greater{}, &Times::value_type::second);
+    return times;
 }
 
 } // namespace bench

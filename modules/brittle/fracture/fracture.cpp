@@ -166,6 +166,7 @@ private:
         if (!scene) return scene.error();
         engine::Commands commands(device_);
         if (auto ok = commands.begin(); !ok) return ok.error();
+        if (options.time_kernels) commands.timeKernels();
         Upload upload;
         std::vector<float> attributes;
         std::vector<Int3> sites;

@@ -19,6 +19,7 @@ struct FractureOptions {
     uint64_t seed = 1;
     std::vector<Double3> given_sites; // model space; empty: pattern `uniform`
     bool only_cells = false;          // stop once the Voronoi cells are there: no fragments, for measuring
+    bool time_kernels = false;        // timings name kernels, not stages
 };
 
 struct FractureCounts {

@@ -64,10 +64,10 @@ void recordPacking(const Event& e) {
                    {c.neighbors, c.corners, c.voronoi_vertices, c.voronoi_edges}},
                   true);
     e.record.run("gather_cells", Length::of(c.sites), c.sites,
-                 {e.record.counts(), b.cell_raw, b.raw, b.cell_offsets, b.neighbors, b.corners, b.corner_info, b.vertex_sites});
-    e.record.run("list_face_cells", Length::of(c.sites), engine::NoPush{}, {e.record.counts(), b.cell_offsets, b.face_cells});
-    e.record.run("link_edges", Length::counted(COUNT_CORNERS), engine::NoPush{},
-                 {e.record.counts(), b.cell_offsets, b.corners, b.corner_info, b.edge_sites, b.edge_ends});
+                 {e.record.counts(), b.cell_raw, b.raw, b.cell_offsets, b.neighbors, b.corners, b.corner_info, b.vertex_sites,
+                  b.edge_sites, b.face_cells});
+    e.record.run("link_edges", Length::counted(COUNT_VORONOI_EDGES), engine::NoPush{},
+                 {e.record.counts(), b.cell_offsets, b.corners, b.edge_sites, b.edge_ends});
 }
 
 } // namespace
