@@ -49,23 +49,26 @@ uint plane_id[PLANES];
 int rim[PLANES];
 float corner_x[CORNERS], corner_y[CORNERS], corner_z[CORNERS]; // w; zero where free
 float corner_error[CORNERS];
-float corner_far[CORNERS]; // squared length of w, at most
 uint triple[CORNERS];
 uint key[LIST];       // squared distance, its last bits replaced by the place in the list
 uint listed[LIST];    // place in bin_sites
 uint put_off[PUT_OFF];
-uint free_low, free_high, top, plane_count, status, count, put_off_count, budget;
-float reach;
+uint free_low, free_high, plane_count, status, count, put_off_count, budget;
+float reach;       // squared: no site further away cuts this cell
+float worst_error; // of all corners
+
+uint takeLowest(inout uint low, inout uint high) {
+    bool lower = low != 0u;
+    uint t = lower ? uint(findLSB(low)) : 32u + uint(findLSB(high));
+    low = lower ? low & (low - 1u) : 0u;
+    high = lower ? high : high & (high - 1u);
+    return t;
+}
 
 uint takeFree() {
-    bool low = free_low != 0u;
-    uint word = low ? free_low : free_high;
-    uint slot = word == 0u ? CORNERS - 1u : uint(findLSB(word)) + (low ? 0u : 32u);
-    status = word == 0u ? CELL_OVERFLOW : status;
-    free_low = low ? free_low & (free_low - 1u) : 0u;
-    free_high = low ? free_high : free_high & (free_high - 1u);
-    top = max(top, slot + 1u);
-    return slot;
+    bool none = (free_low | free_high) == 0u;
+    status = none ? CELL_OVERFLOW : status;
+    return min(takeLowest(free_low, free_high), CORNERS - 1u);
 }
 
 vec3 planeAt(uint p) { return vec3(plane_x[p], plane_y[p], plane_z[p]); }
@@ -75,30 +78,25 @@ void setCorner(uint slot, vec3 w, float error) {
     corner_y[slot] = w.y;
     corner_z[slot] = w.z;
     corner_error[slot] = error;
-    float furthest = (length(w) + error) * (1.0 + kTestError);
-    corner_far[slot] = furthest * furthest;
 }
 
 float sumOfSizes(vec3 w) { return abs(w.x) + abs(w.y) + abs(w.z); }
 
-void makeCorner(uint slot, uint a, uint b, uint c) {
-    vec3 pa = planeAt(a), pb = planeAt(b), pc = planeAt(c);
-    vec3 bc = cross(pb, pc), ca = cross(pc, pa), ab = cross(pa, pb);
-    float la = length(pa), lb = length(pb), lc = length(pc);
-    float inverse = 1.0 / dot(pa, bc);
-    vec3 w = (dot(pa, pa) * bc + dot(pb, pb) * ca + dot(pc, pc) * ab) * inverse;
-    float size = length(w);
-    float error = kCornerError * la * lb * lc * abs(inverse) * (la + lb + lc + size) + kTestError * sumOfSizes(w);
-    if (!(error < kMaxRelativeError * size)) status = CELL_UNDECIDED;
-    setCorner(slot, w, error);
-    triple[slot] = a | (b << 8) | (c << 16);
+// How far the cell reaches, and how uncertain its corners are.
+void measure() {
+    float furthest = 0.0, worst = 0.0;
+    ALL_CORNERS(k) {
+        float x = corner_x[k], y = corner_y[k], z = corner_z[k];
+        furthest = max(furthest, x * x + y * y + z * z);
+        worst = max(worst, corner_error[k]);
+    }
+    worst_error = worst;
+    float radius = sqrt(furthest) * (1.0 + kTestError) + worst;
+    reach = radius * radius * (1.0 + kTestError);
 }
 
 void startFromBox(ivec3 site) {
-    for (uint k = 0u; k < ROLLED(CORNERS); k++) {
-        setCorner(k, vec3(0.0), 0.0);
-        triple[k] = 0u;
-    }
+    for (uint k = 0u; k < ROLLED(CORNERS); k++) setCorner(k, vec3(0.0), 0.0);
     for (uint k = 0u; k < ROLLED(PLANES); k++) rim[k] = 0;
     for (uint k = 0u; k < ROLLED(LIST); k++) key[k] = kNoKey;
     vec3 low = vec3(2 * (box_low.xyz - site)), high = vec3(2 * (box_high.xyz - site));
@@ -112,7 +110,6 @@ void startFromBox(ivec3 site) {
     plane_count = 6u;
     free_low = ~255u;
     free_high = (1u << (CORNERS - 32u)) - 1u;
-    top = 8u;
     for (uint k = 0u; k < ROLLED(8); k++) {
         uint x = k & 1u, y = 2u + ((k >> 1) & 1u), z = 4u + (k >> 2);
         bool odd = ((k ^ (k >> 1) ^ (k >> 2)) & 1u) != 0u;
@@ -120,40 +117,51 @@ void startFromBox(ivec3 site) {
         setCorner(k, w, kTestError * sumOfSizes(w));
         triple[k] = x | ((odd ? y : z) << 8) | ((odd ? z : y) << 16);
     }
+    measure();
 }
 
-// One look at all corners: those that e removes for certain, whether it may remove others, and how far the cell reaches.
+// Whether e may cut at all: one look at all corners, as if all had the error of the worst.
+bool mayCut(vec3 e) {
+    float a = 0.0, b = 0.0;
+    ALL_CORNERS(k) {
+        float q = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z;
+        if ((k & 1u) != 0u) a = max(a, q);
+        else b = max(b, q);
+    }
+    return max(a, b) + length(e) * worst_error >= dot(e, e) * (1.0 - kTestError);
+}
+
+// The corners that e removes for certain, and whether it may remove others.
 struct Look {
     uint gone_low, gone_high;
     bool unsure;
 };
 
 Look lookOver(vec3 e) {
-    Look look = Look(0u, 0u, false);
-    float size = length(e), square = dot(e, e), furthest = 0.0;
-    float sure_out = square * (1.0 + kTestError), sure_in = square * (1.0 - kTestError);
+    uint gone_low = 0u, gone_high = 0u, doubt_low = 0u, doubt_high = 0u;
+    float size = length(e), square = dot(e, e), slack = square * kTestError;
     ALL_CORNERS(k) {
-        float x = corner_x[k], y = corner_y[k], z = corner_z[k], slack = size * corner_error[k];
-        float q = e.x * x + e.y * y + e.z * z;
-        furthest = max(furthest, corner_far[k]);
-        bool outside = q - slack > sure_out;
-        look.unsure = look.unsure || (!outside && q + slack >= sure_in);
-        uint bit = outside ? 1u << (k & 31u) : 0u;
-        look.gone_low |= k < 32u ? bit : 0u;
-        look.gone_high |= k < 32u ? 0u : bit;
+        float beyond = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z - square, error = size * corner_error[k] + slack;
+        uint bit = 1u << (k & 31u), gone = beyond > error ? bit : 0u, doubt = beyond >= -error ? bit : 0u;
+        if (k < 32u) gone_low |= gone;
+        else gone_high |= gone;
+        if (k < 32u) doubt_low |= doubt;
+        else doubt_high |= doubt;
     }
-    reach = furthest;
-    return look;
+    return Look(gone_low, gone_high, gone_low != doubt_low || gone_high != doubt_high);
 }
 
 uint nearestListed() {
-    uint nearest = kNoKey;
-    [[unroll]] for (uint k = 0u; k < LIST; k++) nearest = min(nearest, key[k]);
-    return nearest;
+    uint even = kNoKey, odd = kNoKey;
+    [[unroll]] for (uint k = 0u; k < LIST; k += 2u) {
+        even = min(even, key[k]);
+        odd = min(odd, key[k + 1u]);
+    }
+    return min(even, odd);
 }
 
-void list(uint place, vec3 d) {
-    key[count] = (floatBitsToUint(dot(d, d)) & ~63u) | count;
+void list(uint place, float square) {
+    key[count] = (floatBitsToUint(square) & ~63u) | count;
     listed[count] = place;
     count++;
 }
@@ -168,20 +176,62 @@ void addToRim(uint t) {
     rim[c] += wa - wb;
 }
 
-// What is left on a rim plane is next - prev + 256 (next^2 - prev^2).
-uint nextOnRim(int sum) {
+// What is left on a rim plane is next - previous + 256 (next^2 - previous^2): both can be told from it, or one from the other.
+uint previousOnRim(int sum) {
     int difference = (sum << 24) >> 24;
     int squares = (sum - difference) >> 8;
     int total = int(roundEven(float(squares) / float(difference)));
-    return uint((total + difference) >> 1) & 63u;
+    return uint((total - difference) >> 1) & 63u;
+}
+uint nextOnRim(int sum, uint previous) { return (uint(sum) + previous) & 63u; }
+
+void removeCorners(uint low, uint high) {
+    free_low |= low;
+    free_high |= high;
+    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) addToRim(takeLowest(low, high));
 }
 
-uint takeLowest(inout uint low, inout uint high) {
-    bool lower = low != 0u;
-    uint t = lower ? uint(findLSB(low)) : 32u + uint(findLSB(high));
-    low = lower ? low & (low - 1u) : 0u;
-    high = lower ? high : high & (high - 1u);
-    return t;
+// A plane of the rim that removed corners leave.
+uint anyOnRim(uint low, uint high) {
+    uint found = 0u;
+    bool open = (low | high) != 0u;
+    for (uint k = 0u; k < CORNERS && (low | high) != 0u && open; k++) {
+        uint t = triple[takeLowest(low, high)], a = t & 255u, b = (t >> 8) & 255u, c = t >> 16;
+        bool ra = rim[a] != 0, rb = rim[b] != 0, rc = rim[c] != 0;
+        found = ra ? a : (rb ? b : c);
+        open = !(ra || rb || rc);
+    }
+    return found;
+}
+
+// Walks along the rim, and puts a corner on the new plane between each plane of it and the next.
+void closeRim(bool cuts, uint start, vec3 e) {
+    vec3 here = planeAt(start), past = cross(e, here);
+    float e_size = length(e), here_size = length(here);
+    uint at = start, previous = previousOnRim(rim[start]);
+    bool open = cuts;
+    for (uint k = 0u; k < PLANES && open; k++) {
+        int sum = rim[at];
+        uint next = nextOnRim(sum, previous);
+        rim[at] = 0;
+        vec3 there = planeAt(next), ahead = cross(e, there), across = cross(here, there);
+        float there_size = length(there), inverse = 1.0 / dot(e, across);
+        vec3 w = (dot(there, there) * past - dot(here, here) * ahead + dot(e, e) * across) * inverse;
+        float size = length(w);
+        float error = kCornerError * here_size * there_size * e_size * abs(inverse) * (here_size + there_size + e_size + size) +
+                      kTestError * sumOfSizes(w);
+        status = sum != 0 && error < kMaxRelativeError * size ? status : CELL_UNDECIDED;
+        uint slot = takeFree();
+        setCorner(slot, w, error);
+        triple[slot] = at | (next << 8) | (plane_count << 16);
+        previous = at;
+        at = next;
+        here = there;
+        here_size = there_size;
+        past = ahead;
+        open = at != start && status == CELL_OK;
+        budget -= min(budget, 3u); // with those two that will remove this corner
+    }
 }
 
 // Removes corners, and closes the rim that they leave by corners on the new plane.
@@ -189,68 +239,63 @@ void cutBy(uint gone_low, uint gone_high, vec3 e, uint id) {
     bool cuts = (gone_low | gone_high) != 0u;
     if (cuts && plane_count + 1u >= PLANES) status = CELL_OVERFLOW;
     cuts = cuts && status == CELL_OK;
-    uint low = cuts ? gone_low : 0u, high = cuts ? gone_high : 0u, start = 0u;
-    free_low |= low;
-    free_high |= high;
-    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) {
-        uint t = takeLowest(low, high);
-        addToRim(t);
-        setCorner(t, vec3(0.0), 0.0);
-    }
-    low = cuts ? gone_low : 0u;
-    high = cuts ? gone_high : 0u;
-    bool open = cuts;
-    for (uint k = 0u; k < CORNERS && (low | high) != 0u && open; k++) {
-        uint t = takeLowest(low, high), a = triple[t] & 255u, b = (triple[t] >> 8) & 255u, c = triple[t] >> 16;
-        bool ra = rim[a] != 0, rb = rim[b] != 0, rc = rim[c] != 0;
-        start = ra ? a : (rb ? b : c);
-        open = !(ra || rb || rc);
-    }
+    uint low = cuts ? gone_low : 0u, high = cuts ? gone_high : 0u;
+    removeCorners(low, high);
+    uint start = anyOnRim(low, high);
     if (cuts) {
         plane_x[plane_count] = e.x;
         plane_y[plane_count] = e.y;
         plane_z[plane_count] = e.z;
         plane_id[plane_count] = id;
     }
-    uint at = start;
-    open = cuts;
-    for (uint k = 0u; k < PLANES && open; k++) {
-        int sum = rim[at];
-        uint next = sum != 0 ? nextOnRim(sum) : start;
-        rim[at] = 0;
-        if (sum == 0) status = CELL_UNDECIDED;
-        makeCorner(takeFree(), at, next, plane_count);
-        at = next;
-        open = at != start && status == CELL_OK;
-        budget -= min(budget, 3u); // with those two that will remove this corner
-    }
+    closeRim(cuts, start, e);
     plane_count += cuts ? 1u : 0u;
+    // Few are left: only planes that vanish leave fewer corners than before.
+    low &= free_low;
+    high &= free_high;
+    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) setCorner(takeLowest(low, high), vec3(0.0), 0.0);
+    measure();
 }
 
-// Where the search stands.
+// Where the search stands: in a ring, the line (y, z) and its half; among lines, the next one. Then the sites of a row.
+int row_y, row_z, row_half;
 uint phase, row, at, row_end, line_y, line_z;
 
-// A turn is a row of bins or a site of it.
-void fillFromRing(uint lane, ivec3 site, ivec3 home) {
-    int ring = int(min(phase, 2u)), width = 2 * ring + 1;
-    uint rows = ring == 1 ? 9u : uint(2 * width * width);
-    for (uint guard = 0u; guard < 4096u && phase <= kRingTwo && count < LIST && budget > 0u && (row < rows || at < row_end); guard++) {
-        bool step_row = at >= row_end;
-        uint line = ring == 1 ? row : row >> 1;
-        int y = home.y + int(line) % width - ring, z = home.z + int(line) / width - ring;
-        bool whole = ring == 1 || abs(y - home.y) == ring || abs(z - home.z) == ring, right = ring != 1 && (row & 1u) != 0u;
-        int x0 = whole || !right ? home.x - ring : home.x + ring, x1 = whole ? home.x + ring : x0;
-        bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x && !(whole && right);
-        uint first = inside ? uint((z * bins.y + y) * bins.x) : 0u;
-        uint begin = bin_start[inside ? first + uint(max(x0, 0)) : 0u], end = bin_start[inside ? first + uint(min(x1, bins.x - 1)) + 1u : 0u];
-        at = step_row ? (inside ? begin : 0u) : at;
-        row_end = step_row ? (inside ? end : 0u) : row_end;
-        row += step_row ? 1u : 0u;
-        bool is_site = at < row_end;
-        ivec4 q = bin_sites[is_site ? at : lane];
+// The next row of the ring around the home bin. Inner lines of ring 2 have a row at either end.
+void openRow(int ring, ivec3 home, bool step_row) {
+    bool whole = ring == 1 || abs(row_y) == ring || abs(row_z) == ring;
+    int y = home.y + row_y, z = home.z + row_z;
+    int x0 = !whole && row_half == 1 ? home.x + ring : home.x - ring, x1 = whole ? home.x + ring : x0;
+    bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x;
+    uint first = inside ? uint((z * bins.y + y) * bins.x) : 0u;
+    uint begin = bin_start[inside ? first + uint(max(x0, 0)) : 0u], end = bin_start[inside ? first + uint(min(x1, bins.x - 1)) + 1u : 0u];
+    at = step_row ? begin : at;
+    row_end = step_row ? (inside ? end : begin) : row_end;
+    bool line_done = step_row && (whole || row_half == 1);
+    row_half = step_row ? (line_done ? 0 : 1) : row_half;
+    row_y += line_done ? 1 : 0;
+    bool slab_done = row_y > ring;
+    row_y = slab_done ? -ring : row_y;
+    row_z += slab_done ? 1 : 0;
+}
+
+void listRow(uint lane, ivec3 site, bool wanted) {
+    for (uint guard = 0u; guard < 4096u && wanted && at < row_end && count < LIST && budget > 0u; guard++) {
+        ivec4 q = bin_sites[at];
         vec3 d = vec3(q.xyz - site);
-        if (is_site && at != lane && dot(d, d) <= reach) list(at, d);
-        at += is_site ? 1u : 0u;
+        float square = dot(d, d);
+        if (at != lane && square <= reach) list(at, square);
+        at++;
+        budget--;
+    }
+}
+
+void fillFromRing(uint lane, ivec3 site, ivec3 home) {
+    int ring = int(min(phase, 2u));
+    bool wanted = phase <= kRingTwo;
+    for (uint guard = 0u; guard < 4096u && wanted && count < LIST && budget > 0u && (row_z <= ring || at < row_end); guard++) {
+        openRow(ring, home, at >= row_end);
+        listRow(lane, site, wanted);
         budget -= min(budget, 1u);
     }
 }
@@ -301,7 +346,8 @@ void fillFromLines(uint lane, ivec3 site, ivec3 home) {
             ivec4 q = bin_sites[at];
             vec3 d = vec3(q.xyz - site);
             bool seen = all(greaterThanEqual(q.xyz, low)) && all(lessThan(q.xyz, high));
-            if (!seen && dot(d, d) <= reach) list(at, d);
+            float square = dot(d, d);
+            if (!seen && square <= reach) list(at, square);
             at++;
             budget -= min(budget, 1u);
         }
@@ -310,7 +356,10 @@ void fillFromLines(uint lane, ivec3 site, ivec3 home) {
 }
 
 void fillFromPutOff(ivec3 site) {
-    for (uint k = 0u; k < PUT_OFF && k < put_off_count && phase == kPutOff; k++) list(put_off[k], vec3(bin_sites[put_off[k]].xyz - site));
+    for (uint k = 0u; k < PUT_OFF && k < put_off_count && phase == kPutOff; k++) {
+        vec3 d = vec3(bin_sites[put_off[k]].xyz - site);
+        list(put_off[k], dot(d, d));
+    }
 }
 
 // Cuts by what is listed, near to far. What is uncertain is put off: a later cut may remove the corner in question.
@@ -320,21 +369,18 @@ void cutByListed(uint lane, ivec3 site) {
         vec3 e = vec3(0.0);
         uint id = 0u, place = 0u;
         bool found = false;
-        Look look;
         for (uint search = 0u; search < LIST + 1u && !found && !drained; search++) {
             uint best = nearestListed(), slot = best & 63u;
-            drained = best == kNoKey;
+            drained = best == kNoKey || uintBitsToFloat(best & ~63u) > reach || budget == 0u;
             if (!drained) key[slot] = kNoKey;
             place = drained ? lane : listed[slot];
             ivec4 q = bin_sites[place];
             e = vec3(q.xyz - site);
             id = uint(q.w);
-            look = lookOver(e);
-            drained = drained || uintBitsToFloat(best & ~63u) > reach;
-            found = !drained && (look.unsure || (look.gone_low | look.gone_high) != 0u);
+            found = !drained && mayCut(e);
             budget -= min(budget, 1u);
-            drained = drained || budget == 0u;
         }
+        Look look = lookOver(e);
         if (found && look.unsure) {
             if (phase == kPutOff || put_off_count >= PUT_OFF) status = CELL_UNDECIDED;
             put_off[min(put_off_count, PUT_OFF - 1u)] = place;
@@ -351,7 +397,7 @@ void cutByListed(uint lane, ivec3 site) {
 }
 
 void nextPhase(ivec3 site, ivec3 home) {
-    bool ring_done = phase <= kRingTwo && row >= (phase == kRingOne ? 9u : 50u) && at >= row_end;
+    bool ring_done = phase <= kRingTwo && row_z > int(phase) && at >= row_end;
     float clear = ringDistance(site, home, int(min(phase, 2u)));
     bool enough = ring_done && clear * clear * 0.9999 > reach;
     bool all_seen = phase == kLines && line_z >= uint(bins.z) && at >= row_end;
@@ -359,7 +405,8 @@ void nextPhase(ivec3 site, ivec3 home) {
     else if (enough || all_seen) phase = put_off_count > 0u ? kPutOff : kFinished;
     else if (ring_done) phase++;
     if (ring_done) {
-        row = 0u;
+        row_y = -2;
+        row_z = -2;
         at = 0u;
         row_end = 0u;
     }
@@ -370,18 +417,16 @@ void nextPhase(ivec3 site, ivec3 home) {
 void writeCell(uint self) {
     // Straight through for all lanes: a cell that is not done writes no planes and no corners.
     uint base = self * RAW_WORDS, live = 0u;
-    uint planes = status == CELL_OK ? plane_count : 0u, corners = status == CELL_OK ? top : 0u;
-    for (uint k = 0u; k < planes; k++) rim[k] = 0;
-    for (uint k = 0u; k < corners; k++) {
-        bool used = ((k < 32u ? free_low >> k : free_high >> (k & 31u)) & 1u) == 0u;
-        uint t = triple[k];
-        if (used) {
-            raw[base + 2u + PLANES + live] = t;
-            rim[t & 255u] = 1;
-            rim[(t >> 8) & 255u] = 1;
-            rim[t >> 16] = 1;
-            live++;
-        }
+    bool ok = status == CELL_OK;
+    uint planes = ok ? plane_count : 0u;
+    uint low = ok ? ~free_low : 0u, high = ok ? ~free_high & ((1u << (CORNERS - 32u)) - 1u) : 0u;
+    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) {
+        uint t = triple[takeLowest(low, high)];
+        raw[base + 2u + PLANES + live] = t;
+        rim[t & 255u] = 1;
+        rim[(t >> 8) & 255u] = 1;
+        rim[t >> 16] = 1;
+        live++;
     }
     for (uint k = 0u; k < planes; k++) raw[base + 2u + k] = rim[k] != 0 ? plane_id[k] : NO_INDEX;
     cell_raw[self] = uvec2(base, 0u);
@@ -396,6 +441,9 @@ void main() {
     ivec3 site = own.xyz, home = binOf(own.xyz);
     status = CELL_OK;
     phase = kRingOne;
+    row_y = -1;
+    row_z = -1;
+    row_half = 0;
     row = 0u;
     at = 0u;
     row_end = 0u;
@@ -405,7 +453,6 @@ void main() {
     put_off_count = 0u;
     budget = turn_budget;
     startFromBox(site);
-    reach = 1e30;
     for (uint turn = 0u; turn < 1024u && phase != kFinished; turn++) {
         fillFromRing(lane, site, home);
         fillFromLines(lane, site, home);
