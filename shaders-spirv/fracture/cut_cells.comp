@@ -11,6 +11,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_vote : require
 #include "lib/kernel.glsl"
 
 #define PLANES RAW_PLANES
@@ -41,8 +42,8 @@ const float kTestError = 8.0 * kRoundoff;
 const uint kNoKey = 0xffffffffu;
 const float kMaxRelativeError = 0.2; // beyond, a corner says nothing
 
-// Phases of a cell's search: the bins around its own, those around these, all lines of bins further out, and what was put off.
-const uint kRingOne = 1u, kRingTwo = 2u, kLines = 3u, kPutOff = 4u, kFinished = 5u;
+// Phases of a cell's search: rings of bins around its own, 1 to kRings; all lines of bins further out; what was put off.
+const uint kRings = 3u, kLines = 4u, kPutOff = 5u, kFinished = 6u;
 
 float plane_x[PLANES], plane_y[PLANES], plane_z[PLANES];
 uint plane_id[PLANES];
@@ -82,16 +83,18 @@ void setCorner(uint slot, vec3 w, float error) {
 
 float sumOfSizes(vec3 w) { return abs(w.x) + abs(w.y) + abs(w.z); }
 
+// The greatest of several floats and 0 is the greatest of their bits as integers, which is an instruction instead of three.
+
 // How far the cell reaches, and how uncertain its corners are.
 void measure() {
-    float furthest = 0.0, worst = 0.0;
+    int furthest = 0, worst = 0;
     ALL_CORNERS(k) {
         float x = corner_x[k], y = corner_y[k], z = corner_z[k];
-        furthest = max(furthest, x * x + y * y + z * z);
-        worst = max(worst, corner_error[k]);
+        furthest = max(furthest, floatBitsToInt(x * x + y * y + z * z));
+        worst = max(worst, floatBitsToInt(corner_error[k]));
     }
-    worst_error = worst;
-    float radius = sqrt(furthest) * (1.0 + kTestError) + worst;
+    worst_error = intBitsToFloat(worst);
+    float radius = sqrt(intBitsToFloat(furthest)) * (1.0 + kTestError) + worst_error;
     reach = radius * radius * (1.0 + kTestError);
 }
 
@@ -122,13 +125,13 @@ void startFromBox(ivec3 site) {
 
 // Whether e may cut at all: one look at all corners, as if all had the error of the worst.
 bool mayCut(vec3 e) {
-    float a = 0.0, b = 0.0;
+    int even = 0, odd = 0;
     ALL_CORNERS(k) {
-        float q = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z;
-        if ((k & 1u) != 0u) a = max(a, q);
-        else b = max(b, q);
+        int q = floatBitsToInt(corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z);
+        if ((k & 1u) != 0u) odd = max(odd, q);
+        else even = max(even, q);
     }
-    return max(a, b) + length(e) * worst_error >= dot(e, e) * (1.0 - kTestError);
+    return intBitsToFloat(max(even, odd)) + length(e) * worst_error >= dot(e, e) * (1.0 - kTestError);
 }
 
 // The corners that e removes for certain, and whether it may remove others.
@@ -261,42 +264,49 @@ void cutBy(uint gone_low, uint gone_high, vec3 e, uint id) {
 int row_y, row_z, row_half;
 uint phase, row, at, row_end, line_y, line_z;
 
-// The next row of the ring around the home bin. Inner lines of ring 2 have a row at either end.
-void openRow(int ring, ivec3 home, bool step_row) {
-    bool whole = ring == 1 || abs(row_y) == ring || abs(row_z) == ring;
-    int y = home.y + row_y, z = home.z + row_z;
-    int x0 = !whole && row_half == 1 ? home.x + ring : home.x - ring, x1 = whole ? home.x + ring : x0;
-    bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && x1 >= 0 && x0 < bins.x;
-    uint first = inside ? uint((z * bins.y + y) * bins.x) : 0u;
-    uint begin = bin_start[inside ? first + uint(max(x0, 0)) : 0u], end = bin_start[inside ? first + uint(min(x1, bins.x - 1)) + 1u : 0u];
-    at = step_row ? begin : at;
-    row_end = step_row ? (inside ? end : begin) : row_end;
-    bool line_done = step_row && (whole || row_half == 1);
-    row_half = step_row ? (line_done ? 0 : 1) : row_half;
-    row_y += line_done ? 1 : 0;
-    bool slab_done = row_y > ring;
-    row_y = slab_done ? -ring : row_y;
-    row_z += slab_done ? 1 : 0;
-}
-
-void listRow(uint lane, ivec3 site, bool wanted) {
-    for (uint guard = 0u; guard < 4096u && wanted && at < row_end && count < LIST && budget > 0u; guard++) {
-        ivec4 q = bin_sites[at];
-        vec3 d = vec3(q.xyz - site);
-        float square = dot(d, d);
-        if (at != lane && square <= reach) list(at, square);
-        at++;
-        budget--;
+// Rows of the rings around the home bin: whole lines along x where they bound the cube of the ring or nothing was seen before
+// it, elsewhere its two ends. Steps to the next that the search radius reaches.
+bool findRow(int ring, ivec3 site, ivec3 home, out ivec2 part) {
+    bool found = at < row_end || phase > kRings, fresh = !found;
+    part = ivec2(1, 0);
+    for (uint guard = 0u; guard < 4096u && !found && row_z <= ring; guard++) {
+        bool whole = ring == 1 || abs(row_y) == ring || abs(row_z) == ring, right = row_half == 1;
+        float dy = gap(spanOf(home.y + row_y, site.y, box_low.y)), dz = gap(spanOf(home.z + row_z, site.z, box_low.z));
+        float left = reach - dy * dy - dz * dz, half_ = sqrt(max(left, 0.0));
+        ivec2 reached = binsOfPart(vec2(-half_, half_), site.x);
+        part.x = max(reached.x, !whole && right ? home.x + ring : home.x - ring);
+        part.y = min(reached.y, !whole && !right ? home.x - ring : home.x + ring);
+        bool inside = all(greaterThanEqual(ivec2(home.y + row_y, home.z + row_z), ivec2(0))) &&
+                      all(lessThan(ivec2(home.y + row_y, home.z + row_z), bins.yz));
+        found = inside && left >= 0.0 && part.x <= part.y;
+        row = binIndex(ivec3(0, home.y + row_y, home.z + row_z));
+        row_half = whole || right ? 0 : 1;
+        row_y += row_half == 0 ? 1 : 0;
+        bool slab_done = row_y > ring;
+        row_y = slab_done ? -ring : row_y;
+        row_z += slab_done ? 1 : 0;
+        budget -= min(budget, 1u);
     }
+    return found && fresh;
 }
 
 void fillFromRing(uint lane, ivec3 site, ivec3 home) {
-    int ring = int(min(phase, 2u));
-    bool wanted = phase <= kRingTwo;
-    for (uint guard = 0u; guard < 4096u && wanted && count < LIST && budget > 0u && (row_z <= ring || at < row_end); guard++) {
-        openRow(ring, home, at >= row_end);
-        listRow(lane, site, wanted);
-        budget -= min(budget, 1u);
+    int ring = int(min(phase, kRings));
+    bool more = phase <= kRings;
+    for (uint guard = 0u; guard < 4096u && more; guard++) {
+        ivec2 part;
+        bool fresh = findRow(ring, site, home, part);
+        uint begin = bin_start[fresh ? row + uint(part.x) : 0u], end = bin_start[fresh ? row + uint(part.y) + 1u : 0u];
+        at = fresh ? begin : at;
+        row_end = fresh ? end : row_end;
+        for (uint inner = 0u; inner < 4096u && at < row_end && count < LIST && budget > 0u && more; inner++) {
+            vec3 d = vec3(bin_sites[at].xyz - site);
+            float square = dot(d, d);
+            if (at != lane && square <= reach) list(at, square);
+            at++;
+            budget--;
+        }
+        more = more && count < LIST && budget > 0u && row_z <= ring;
     }
 }
 
@@ -338,7 +348,7 @@ void openLine(ivec3 site, ivec3 home) {
 }
 
 void fillFromLines(uint lane, ivec3 site, ivec3 home) {
-    ivec3 low = box_low.xyz + (home - 2) * bins.w, high = box_low.xyz + (home + 3) * bins.w;
+    ivec3 low = box_low.xyz + (home - int(kRings)) * bins.w, high = box_low.xyz + (home + int(kRings) + 1) * bins.w;
     bool more = phase == kLines;
     for (uint guard = 0u; guard < 4096u && more; guard++) {
         if (findLine(site, home)) openLine(site, home);
@@ -367,17 +377,21 @@ void cutByListed(uint lane, ivec3 site) {
     bool drained = phase == kFinished;
     for (uint step = 0u; step < 128u && !drained; step++) {
         vec3 e = vec3(0.0);
-        uint id = 0u, place = 0u;
-        bool found = false;
-        for (uint search = 0u; search < LIST + 1u && !found && !drained; search++) {
+        uint place = lane;
+        bool found = false, ready = drained;
+        for (uint search = 0u; search < LIST + 1u && !ready; search++) {
             uint best = nearestListed(), slot = best & 63u;
-            drained = best == kNoKey || uintBitsToFloat(best & ~63u) > reach || budget == 0u;
-            if (!drained) key[slot] = kNoKey;
-            place = drained ? lane : listed[slot];
-            ivec4 q = bin_sites[place];
-            e = vec3(q.xyz - site);
-            id = uint(q.w);
-            found = !drained && mayCut(e);
+            bool ended = best == kNoKey || uintBitsToFloat(best & ~63u) > reach || budget == 0u;
+            uint candidate = ended ? lane : listed[slot];
+            vec3 d = vec3(bin_sites[candidate].xyz - site);
+            bool may = !ended && mayCut(d), first = may && !found;
+            if (!ended && (first || !may)) key[slot] = kNoKey;
+            place = first ? candidate : place;
+            e = first ? d : e;
+            drained = ended && !found;
+            found = found || first;
+            // Lanes go on while any has found nothing: what does not cut the cell as it is will not cut what is left of it.
+            ready = subgroupAll(found || ended);
             budget -= min(budget, 1u);
         }
         Look look = lookOver(e);
@@ -387,7 +401,7 @@ void cutByListed(uint lane, ivec3 site) {
             put_off_count++;
         }
         bool cuts = found && !look.unsure;
-        cutBy(cuts ? look.gone_low : 0u, cuts ? look.gone_high : 0u, e, id);
+        cutBy(cuts ? look.gone_low : 0u, cuts ? look.gone_high : 0u, e, uint(bin_sites[place].w));
         budget -= min(budget, 8u);
         drained = drained || status != CELL_OK;
     }
@@ -397,16 +411,16 @@ void cutByListed(uint lane, ivec3 site) {
 }
 
 void nextPhase(ivec3 site, ivec3 home) {
-    bool ring_done = phase <= kRingTwo && row_z > int(phase) && at >= row_end;
-    float clear = ringDistance(site, home, int(min(phase, 2u)));
+    bool ring_done = phase <= kRings && row_z > int(phase) && at >= row_end;
+    float clear = ringDistance(site, home, int(min(phase, kRings)));
     bool enough = ring_done && clear * clear * 0.9999 > reach;
     bool all_seen = phase == kLines && line_z >= uint(bins.z) && at >= row_end;
     if (phase == kPutOff) phase = kFinished;
     else if (enough || all_seen) phase = put_off_count > 0u ? kPutOff : kFinished;
     else if (ring_done) phase++;
     if (ring_done) {
-        row_y = -2;
-        row_z = -2;
+        row_y = -int(phase);
+        row_z = -int(phase);
         at = 0u;
         row_end = 0u;
     }
@@ -440,7 +454,7 @@ void main() {
     ivec4 own = bin_sites[lane];
     ivec3 site = own.xyz, home = binOf(own.xyz);
     status = CELL_OK;
-    phase = kRingOne;
+    phase = 1u;
     row_y = -1;
     row_z = -1;
     row_half = 0;
