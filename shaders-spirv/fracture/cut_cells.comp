@@ -3,8 +3,8 @@
 // Lanes of a subgroup take sites of neighboring bins. Walls of the box are mirrored sites, so that every plane is a bisector
 // d.w <= d.d, with d the way to the other site (exact in fp32) and w = 2 (v - site). Each corner keeps w and a bound of its
 // error; a test that does not clear the bounds (roundoff 2^-23 an operation, since Vulkan fixes no rounding mode; contraction
-// only helps) is put off until the other cuts are made, and where it is still open then the cell is queued for the exact
-// kernel; so it is when it runs out of planes, corners or turns.
+// only helps) is put off until the other cuts are made, and where it is still open then the exact kernel goes on with the
+// cell; from the box it does so where this one runs out of planes, corners or turns.
 //
 // An `if` is no saving where lanes run in step: the search for a bisector that cuts is a loop of its own, cutting another.
 // Looks at all corners are unrolled: with fixed places an array is as cheap as registers, with computed ones ten times dearer.
@@ -17,7 +17,6 @@
 #define PLANES RAW_PLANES
 #define CORNERS 48
 #define LIST 64
-#define PUT_OFF 16
 #define ALL_CORNERS(k) [[unroll]] for (uint k = 0u; k < CORNERS; k++)
 FLAT_KERNEL;
 READS(0, uint, counts);
@@ -53,8 +52,8 @@ float corner_error[CORNERS];
 uint triple[CORNERS];
 uint key[LIST];       // squared distance, its last bits replaced by the place in the list
 uint listed[LIST];    // place in bin_sites
-uint put_off[PUT_OFF];
-uint free_low, free_high, plane_count, status, count, put_off_count, budget;
+uint put_off[MOST_OPEN];
+uint free_low, free_high, plane_count, status, count, put_off_count, open_count, budget;
 float reach;       // squared: no site further away cuts this cell
 float worst_error; // of all corners
 
@@ -366,13 +365,23 @@ void fillFromLines(uint lane, ivec3 site, ivec3 home) {
 }
 
 void fillFromPutOff(ivec3 site) {
-    for (uint k = 0u; k < PUT_OFF && k < put_off_count && phase == kPutOff; k++) {
+    for (uint k = 0u; k < MOST_OPEN && k < put_off_count && phase == kPutOff; k++) {
         vec3 d = vec3(bin_sites[put_off[k]].xyz - site);
         list(put_off[k], dot(d, d));
     }
 }
 
-// Cuts by what is listed, near to far. What is uncertain is put off: a later cut may remove the corner in question.
+// What is uncertain is put off, since a later cut may remove the corner in question; what then still is, is left open.
+void putOff(uint place) {
+    bool last = phase == kPutOff;
+    uint slot = last ? open_count : put_off_count;
+    if (slot >= MOST_OPEN) status = CELL_UNDECIDED;
+    put_off[min(slot, MOST_OPEN - 1u)] = place;
+    put_off_count += last ? 0u : 1u;
+    open_count += last ? 1u : 0u;
+}
+
+// Cuts by what is listed, near to far.
 void cutByListed(uint lane, ivec3 site) {
     bool drained = phase == kFinished;
     for (uint step = 0u; step < 128u && !drained; step++) {
@@ -395,11 +404,7 @@ void cutByListed(uint lane, ivec3 site) {
             budget -= min(budget, 1u);
         }
         Look look = lookOver(e);
-        if (found && look.unsure) {
-            if (phase == kPutOff || put_off_count >= PUT_OFF) status = CELL_UNDECIDED;
-            put_off[min(put_off_count, PUT_OFF - 1u)] = place;
-            put_off_count++;
-        }
+        if (found && look.unsure) putOff(place);
         bool cuts = found && !look.unsure;
         cutBy(cuts ? look.gone_low : 0u, cuts ? look.gone_high : 0u, e, uint(bin_sites[place].w));
         budget -= min(budget, 8u);
@@ -443,8 +448,10 @@ void writeCell(uint self) {
         live++;
     }
     for (uint k = 0u; k < planes; k++) raw[base + 2u + k] = rim[k] != 0 ? plane_id[k] : NO_INDEX;
+    uint open = ok ? open_count : 0u;
+    for (uint k = 0u; k < MOST_OPEN && k < open; k++) raw[base + RAW_OPEN + k] = uint(bin_sites[put_off[k]].w);
     cell_raw[self] = uvec2(base, 0u);
-    raw[base] = status;
+    raw[base] = open != 0u ? CELL_OPEN | (open << 8) : status;
     raw[base + 1u] = planes | (live << 16);
 }
 
@@ -465,6 +472,7 @@ void main() {
     line_z = 0u;
     count = 0u;
     put_off_count = 0u;
+    open_count = 0u;
     budget = turn_budget;
     startFromBox(site);
     for (uint turn = 0u; turn < 1024u && phase != kFinished; turn++) {

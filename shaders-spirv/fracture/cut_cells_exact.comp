@@ -34,7 +34,7 @@ READS(1, ivec4, sites);     // by id
 READS(2, uint, bin_start);  // grid of bins, x fastest
 READS(3, ivec4, bin_sites); // position and id, bin by bin
 UPDATES(4, uint, queue);    // cells of this kernel, then of the next larger one
-WRITES(5, uint, raw);
+UPDATES(5, uint, raw);
 WRITES(6, uvec2, cell_raw); // word offset of the cell in `raw`, and the store's size class
 layout(push_constant) uniform Push {
     ivec4 bins;        // per axis; w: edge of a bin in grid steps
@@ -94,6 +94,11 @@ void startFromBox(uint lane) {
     corner_top = 8u;
     plane_count = 6u;
     sync();
+}
+
+void setNeighbor(uint p, uint id) {
+    ivec3 d = sites[id].xyz - site;
+    setPlane(p, d, id, int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z));
 }
 
 void measureReach(uint lane) {
@@ -362,7 +367,7 @@ void cutByListed(uint lane, bool waiting_too) {
             removeExact(lane, Plane(d, id, r));
             if (removed_count != 0u) {
                 if (plane_count >= PLANES - 1u) status = CELL_OVERFLOW;
-                if (lane == 0u) setPlane(min(plane_count, PLANES - 1u), d, id, r);
+                if (lane == 0u) setNeighbor(min(plane_count, PLANES - 1u), id);
                 sync();
                 closeRim(lane, plane_count);
                 plane_count++;
@@ -432,6 +437,31 @@ void cutCell(uint lane) {
     if (!finished) status = CELL_OVERFLOW;
 }
 
+// Goes on with what the filtered kernel left: all is cut but for a few sites. The walls of the box stand in place already.
+void resumeCell(uint lane, uint base, uint open) {
+    uint planes = raw[base + 1u] & 0xffffu, corners = raw[base + 1u] >> 16;
+    for (uint p = lane; p < planes; p += LANES) {
+        uint id = raw[base + 2u + p];
+        if (id < BOX_BASE) setNeighbor(p, id);
+    }
+    corner_top = corners;
+    plane_count = planes;
+    sync();
+    for (uint t = lane; t < corners; t += LANES) {
+        uint word = raw[base + 2u + RAW_PLANES + t];
+        makeCorner(t, word & 0xffu, (word >> 8) & 0xffu, word >> 16);
+    }
+    sync();
+    if (lane < open) {
+        uint id = raw[base + RAW_OPEN + lane];
+        list_site[lane] = id;
+        list_key[lane] = keyOf(vec3(sites[id].xyz - site));
+    }
+    if (lane == 0u) list_count = open;
+    sync();
+    cutByListed(lane, true);
+}
+
 void writeCell(uint lane, uint group) {
 #ifdef WIDE_TRIPLES
     uint base = raw_base + group * (2u + PLANES + 2u * CORNERS);
@@ -483,6 +513,8 @@ void main() {
     status = CELL_OK;
     budget = kTurnBudget;
     startFromBox(lane);
-    cutCell(lane);
+    uint left = queued && size_class == 0u ? raw[self * RAW_WORDS] : 0u;
+    if ((left & 0xffu) == CELL_OPEN) resumeCell(lane, self * RAW_WORDS, left >> 8);
+    else cutCell(lane);
     writeCell(lane, group);
 }

@@ -83,6 +83,9 @@
 #define CELL_OK 0u
 #define CELL_UNDECIDED 1u
 #define CELL_OVERFLOW 2u
+#define CELL_OPEN 3u /* cut but for a few sites, which are in doubt: their ids stand at RAW_OPEN, their number above the status */
+#define MOST_OPEN 16
+#define RAW_OPEN (RAW_WORDS - MOST_OPEN)
 
 // Mesa's software device stops a lane without a word after 65,535 loop turns: what could come near asks beforehand, or
 // counts, and fails the event with a message.
