@@ -15,7 +15,7 @@
 #include "lib/kernel.glsl"
 
 #define PLANES RAW_PLANES
-#define CORNERS 48
+#define CORNERS 52
 #define LIST 64
 #define ALL_CORNERS(k) [[unroll]] for (uint k = 0u; k < CORNERS; k++)
 FLAT_KERNEL;

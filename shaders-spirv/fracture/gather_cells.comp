@@ -13,7 +13,7 @@ WRITES(4, uint, neighbors);
 WRITES(5, uvec4, corners);
 WRITES(6, uvec2, corner_info);
 WRITES(7, uvec4, vertex_sites);
-WRITES(8, uvec4, edge_sites); // w: the corner at which the edge ends
+WRITES(8, uvec2, edge_ends);  // for now the corner at which the edge ends, and which of its three edges it is
 WRITES(9, uint, face_cells);  // the cell that each neighbor entry belongs to
 layout(push_constant) uniform Push { uint slots; };
 #include "lib/raw_cell.glsl"
@@ -37,9 +37,9 @@ void main() {
         corners[at.y] = uvec4(s, owned ? at.z : NO_INDEX);
         corner_info[at.y] = uvec2(cell, at.w);
         if (owned) vertex_sites[at.z] = uvec4(cell, low);
-        if (ownsEdge(cell, s.x, s.y)) edge_sites[at.w++] = uvec4(cell, s.xy, at.y);
-        if (ownsEdge(cell, s.y, s.z)) edge_sites[at.w++] = uvec4(cell, s.yz, at.y);
-        if (ownsEdge(cell, s.z, s.x)) edge_sites[at.w++] = uvec4(cell, s.zx, at.y);
+        if (ownsEdge(cell, s.x, s.y)) edge_ends[at.w++] = uvec2(at.y, 0u);
+        if (ownsEdge(cell, s.y, s.z)) edge_ends[at.w++] = uvec2(at.y, 1u);
+        if (ownsEdge(cell, s.z, s.x)) edge_ends[at.w++] = uvec2(at.y, 2u);
         at.y++;
         at.z += owned ? 1u : 0u;
     }

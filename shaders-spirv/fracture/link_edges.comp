@@ -1,5 +1,5 @@
-// Gives every Voronoi edge the vertices at its two ends (NO_INDEX where it leaves the box). A lane an edge: a lane a corner
-// would look for three, of which half of one is there.
+// Gives every Voronoi edge its sites, and the vertices at its two ends (NO_INDEX where it leaves the box). A lane an edge: a
+// lane a corner would look for three, of which half of one is there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -9,8 +9,9 @@ FLAT_KERNEL;
 READS(0, uint, counts);
 READS(1, uvec4, cell_offsets);
 READS(2, uvec4, corners);
-READS(3, uvec4, edge_sites);
-WRITES(4, uvec2, edge_ends);
+READS(3, uvec2, corner_info);
+WRITES(4, uvec4, edge_sites);
+UPDATES(5, uvec2, edge_ends); // as gather_cells leaves them
 
 // The corner of the edge's own cell at which it begins: the one that holds (y, x) in this order.
 uint beginOf(uvec3 edge) {
@@ -39,7 +40,10 @@ uint vertexAt(uvec3 edge, uvec4 corner) {
 void main() {
     uint e = flatIndex();
     if (e >= counts[COUNT_VORONOI_EDGES] || counts[STATUS_FAILED] != 0u) return;
-    uvec4 edge = edge_sites[e];
-    uint begin = beginOf(edge.xyz);
-    edge_ends[e] = uvec2(vertexAt(edge.xyz, corners[begin]), vertexAt(edge.xyz, corners[edge.w]));
+    uvec2 named = edge_ends[e];
+    uvec4 end = corners[named.x];
+    uvec3 edge = uvec3(corner_info[named.x].x, end[named.y], end[(named.y + 1u) % 3u]);
+    uint begin = beginOf(edge);
+    edge_sites[e] = uvec4(edge, 0u);
+    edge_ends[e] = uvec2(vertexAt(edge, corners[begin]), vertexAt(edge, end));
 }

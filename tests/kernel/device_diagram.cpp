@@ -23,9 +23,9 @@ DeviceDiagram diagramOnDevice(const reference::SiteSet& set) {
     const engine::Buffer ends = blankBuffer<Word2>(counts[COUNT_VORONOI_EDGES] + 1);
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("gather_cells"), n, n,
-                          {counts.words, raw.at, raw.raw, offsets, neighbors, corners, info, vertices, edges, face_cells});
+                          {counts.words, raw.at, raw.raw, offsets, neighbors, corners, info, vertices, ends, face_cells});
         commands.dispatch(kernel("link_edges"), counts[COUNT_VORONOI_EDGES], engine::NoPush{},
-                          {counts.words, offsets, corners, edges, ends});
+                          {counts.words, offsets, corners, info, edges, ends});
     });
     EXPECT_EQ(counts[STATUS_BAD_CELLS], 0u);
     return {valuesOf<Word4>(offsets, n + 1),

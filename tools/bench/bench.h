@@ -33,7 +33,8 @@ using Times = std::vector<std::pair<std::string, double>>; // milliseconds of de
 // Medians in milliseconds; 0 where there was no peer to run.
 struct CellsRow {
     uint32_t sites = 0;
-    double ms = 0;        // device time of binning the sites and cutting the cells
+    double ms = 0;        // device time of binning the sites and cutting the cells: neighbors and corners of each, by id
+    double link_ms = 0;   // and of packing them into one diagram, edges tied to vertices; the peers make none
     double voropp_ms = 0; // filling the container and computing every cell with its neighbors
     Times kernels;        // where asked for
 };

@@ -22,16 +22,20 @@ brittle::FractureOptions onlyCells(const std::vector<Point>& sites) {
     return options;
 }
 
+struct CellTimes {
+    double cut = 0, link = 0;
+};
+
 // One run of ours. Binning the sites belongs to it, as filling the container belongs to Voro++'s time.
-engine::Result<double> ourCells(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
+engine::Result<CellTimes> ourCells(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
                                 const std::vector<Point>& sites) {
     auto result = fracture.shatter(cube.mesh, cube.topology, onlyCells(sites));
     if (!result) return result.error();
-    return stageMs(*result, {"neighbor_grid", "cut_cells"});
+    return CellTimes{stageMs(*result, {"neighbor_grid", "cut_cells"}), stageMs(*result, {"link_cells"})};
 }
 
 struct Samples {
-    std::vector<double> ours, voropp;
+    std::vector<double> cut, link, voropp;
 };
 
 engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
@@ -41,7 +45,8 @@ engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::Pr
     for (uint32_t round = 0; round < rounds; ++round) {
         const auto ms = ourCells(fracture, cube, sites);
         if (!ms) return ms.error();
-        samples.ours.push_back(*ms);
+        samples.cut.push_back(ms->cut);
+        samples.link.push_back(ms->link);
         if (const auto peer = voroppCells(sites)) samples.voropp.push_back(peer->ms);
     }
     return samples;
@@ -60,7 +65,7 @@ engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const B
         progress("cells of " + std::to_string(count) + " sites");
         const auto samples = alternate(**fracture, *cube, uniformSites(count, options.seed), options.rounds);
         if (!samples) return samples.error();
-        rows.push_back({count, median(samples->ours), median(samples->voropp), {}});
+        rows.push_back({count, median(samples->cut), median(samples->link), median(samples->voropp), {}});
         if (!options.kernels) continue;
         auto kernels = kernelTimes(**fracture, *cube, onlyCells(uniformSites(count, options.seed)), options.rounds);
         if (!kernels) return kernels.error();

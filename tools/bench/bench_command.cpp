@@ -38,7 +38,7 @@ Json sharesOf(const char* what, const bench::Times& times) {
 }
 
 Json toJson(const bench::CellsRow& cells) {
-    Json row = {{"sites", cells.sites}, {"ms", cells.ms}, {"us_per_cell", 1000 * cells.ms / cells.sites}};
+    Json row = {{"sites", cells.sites}, {"ms", cells.ms}, {"us_per_cell", 1000 * cells.ms / cells.sites}, {"link_ms", cells.link_ms}};
     addPeer(row, "voropp", cells.voropp_ms, cells.ms);
     if (!cells.kernels.empty()) row["kernels"] = sharesOf("kernel", cells.kernels);
     return row;

@@ -65,9 +65,9 @@ void recordPacking(const Event& e) {
                   true);
     e.record.run("gather_cells", Length::of(c.sites), c.sites,
                  {e.record.counts(), b.cell_raw, b.raw, b.cell_offsets, b.neighbors, b.corners, b.corner_info, b.vertex_sites,
-                  b.edge_sites, b.face_cells});
+                  b.edge_ends, b.face_cells});
     e.record.run("link_edges", Length::counted(COUNT_VORONOI_EDGES), engine::NoPush{},
-                 {e.record.counts(), b.cell_offsets, b.corners, b.edge_sites, b.edge_ends});
+                 {e.record.counts(), b.cell_offsets, b.corners, b.corner_info, b.edge_sites, b.edge_ends});
 }
 
 } // namespace
@@ -75,6 +75,8 @@ void recordPacking(const Event& e) {
 void recordCells(const Event& e) {
     e.record.commands().beginLabel("cut_cells");
     recordCutting(e);
+    e.record.commands().endLabel();
+    e.record.commands().beginLabel("link_cells");
     recordPacking(e);
     e.record.commands().endLabel();
 }
