@@ -92,6 +92,9 @@
 #define MOST_IN_A_BIN 16384u
 #define MOST_TURNS 50000u
 #define MOST_CELLS_OF_AN_EDGE 8000u
+#define MOST_LINEAR_SITES 100000u /* that a lane can go through twice, LINEAR_AT_ONCE a turn */
+#define LINEAR_AT_ONCE 8u
+#define MOST_TREE_LEVELS 24u
 
 // Sides of a clipped polygon; one that outgrows the usual number has the event done again with the larger.
 #define USUAL_SIDES 24

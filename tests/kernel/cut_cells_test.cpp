@@ -50,6 +50,30 @@ TEST(CutCells, OfUniformSitesOfManyCounts) {
     }
 }
 
+class CutCellsBySearch : public testing::TestWithParam<Path> {};
+
+TEST_P(CutCellsBySearch, FindsTheSameCells) {
+    for (const uint32_t count : {1u, 2u, 64u, 65u, 1234u}) {
+        SCOPED_TRACE(count);
+        const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(count, count)).set;
+        expectSameDiagram(set, cutOnDevice(set, GetParam()));
+    }
+    for (const hard::HardSites& sites :
+         {hard::clusters(8, 40, 1e-3, 3), hard::cubicLattice(6), hard::sphereAroundCenter(70, .3)}) {
+        SCOPED_TRACE(sites.name);
+        const reference::SiteSet set = hard::snapToGrid(sites).set;
+        expectSameDiagram(set, cutOnDevice(set, GetParam()));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Quick, CutCellsBySearch, testing::Values(Path::FilteredLinear, Path::FilteredTree));
+
+TEST(CutCellsSearch, FindsTheSameCellsAcrossWorkgroups) {
+    const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(300, 5)).set;
+    expectSameDiagram(set, cutOnDevice(set, Path::FilteredLinear));
+    expectSameDiagram(set, cutOnDevice(set, Path::FilteredTree));
+}
+
 TEST(CutCells, OfUniformSitesAreMostlyDecidedByTheFilter) {
     const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(10'000, 1)).set;
     const DeviceCells device = cutOnDevice(set);

@@ -1,7 +1,10 @@
 #include "tests/kernel/device_cells.h"
 
+#include "tests/kernel/device_tree.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace kernel_test {
 namespace {
@@ -153,10 +156,19 @@ RawCells cutRaw(const SiteSet& set, Path path) {
     const engine::Buffer sites = bufferOf(binned.sites), bin_start = bufferOf(binned.bin_start);
     const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(words.queue);
     const engine::Buffer store = blankBuffer<uint32_t>(words.store);
+    std::optional<DeviceTree> tree;
+    if (path == Path::FilteredTree) tree = growTree(binned.bin_sites, 12);
     const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
         const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
-        commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_start, bin_sites, result.raw, result.at});
+        if (path == Path::FilteredLinear)
+            commands.dispatch(kernel("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at});
+        else if (tree)
+            commands.dispatch(
+                kernel("cut_cells_tree"), n, push,
+                {counts.words, bin_sites, result.raw, result.at, tree->nodes, tree->leaf_start, tree->leaf_sites});
+        else
+            commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_sites, result.raw, result.at, bin_start});
         commands.dispatch(kernel("queue_cells"), n, n, {counts.words, result.raw, queue});
     };
     const auto exact = [&](engine::Commands& commands, uint32_t k, const SizeClass& size) {
@@ -170,7 +182,7 @@ RawCells cutRaw(const SiteSet& set, Path path) {
             commands.dispatchIndirect(kernel(size.kernel), counts.groupsOf(COUNT_EXACT_SMALL + k), push, buffers);
     };
     onDevice([&](engine::Commands& commands) {
-        if (path == Path::Filtered) filter(commands);
+        if (path != Path::Exact) filter(commands);
         uint32_t k = 0;
         for (const SizeClass& size : sizeClasses(n))
             exact(commands, k++, size);

@@ -17,8 +17,10 @@ struct BinnedSites {
 BinnedSites binSites(const reference::SiteSet& set);
 
 enum class Path {
-    Filtered, // as in a fracture: fp32 first, what is not certain again in integers
-    Exact     // in integers from the start
+    Filtered,       // as in a fracture: fp32 first, what is not certain again in integers
+    FilteredLinear, // the same, with neighbors looked for otherwise
+    FilteredTree,
+    Exact // in integers from the start
 };
 
 struct DeviceCells {

@@ -28,7 +28,7 @@ struct CellTimes {
 
 // One run of ours. Binning the sites belongs to it, as filling the container belongs to Voro++'s time.
 engine::Result<CellTimes> ourCells(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
-                                const std::vector<Point>& sites) {
+                                   const std::vector<Point>& sites) {
     auto result = fracture.shatter(cube.mesh, cube.topology, onlyCells(sites));
     if (!result) return result.error();
     return CellTimes{stageMs(*result, {"neighbor_grid", "cut_cells"}), stageMs(*result, {"link_cells"})};

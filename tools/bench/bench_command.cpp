@@ -38,7 +38,8 @@ Json sharesOf(const char* what, const bench::Times& times) {
 }
 
 Json toJson(const bench::CellsRow& cells) {
-    Json row = {{"sites", cells.sites}, {"ms", cells.ms}, {"us_per_cell", 1000 * cells.ms / cells.sites}, {"link_ms", cells.link_ms}};
+    Json row = {
+        {"sites", cells.sites}, {"ms", cells.ms}, {"us_per_cell", 1000 * cells.ms / cells.sites}, {"link_ms", cells.link_ms}};
     addPeer(row, "voropp", cells.voropp_ms, cells.ms);
     if (!cells.kernels.empty()) row["kernels"] = sharesOf("kernel", cells.kernels);
     return row;
@@ -113,7 +114,9 @@ void addBench(CLI::App& app, int& exit_code) {
     command->add_option("--rounds", options->bench.rounds, "how often each is measured")
         ->capture_default_str()
         ->check(CLI::Range(1u, 1000u));
-    command->add_option("--cell-counts", options->bench.cell_counts, "numbers of sites in a cube")->capture_default_str()->check(CLI::Range(1u, 1u << 24));
+    command->add_option("--cell-counts", options->bench.cell_counts, "numbers of sites in a cube")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1u << 24));
     command->add_option("--shatter-counts", options->bench.shatter_counts, "numbers of sites in the bumpy sphere")
         ->capture_default_str();
     CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");

@@ -37,7 +37,8 @@ engine::Result<void> runOurs(brittle::Fracture& fracture, const brittle::Prepare
 }
 
 ShatterRow rowOf(uint32_t count, size_t triangles, const Samples& samples) {
-    ShatterRow row{count, triangles, samples.fragments, median(samples.call), median(samples.device), median(samples.cgal), {}, {}};
+    ShatterRow row{count, triangles, samples.fragments, median(samples.call), median(samples.device), median(samples.cgal),
+                   {},    {}};
     for (const std::string& name : samples.stage_order)
         row.stages.emplace_back(name, median(samples.stages.at(name)));
     return row;

@@ -146,6 +146,7 @@ engine::Result<void> Run::breakModel() {
     options.site_count = options_.sites;
     options.seed = options_.seed;
     options.given_sites = given_sites_;
+    options.search = options_.search;
     auto fracture = brittle::Fracture::create(*device_);
     if (!fracture) return fracture.error();
     auto result = (*fracture)->shatter(model_->mesh, model_->topology, options);

@@ -15,6 +15,7 @@ struct ShatterOptions {
     std::string model, output, device;
     std::string sites_file; // instead of a number of sites
     std::string picture;    // of the fragments, moved apart
+    brittle::Search search = brittle::Search::Auto;
     double explode = 0;
     uint32_t sites = 100;
     uint64_t seed = 1;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 namespace cli {
 namespace {
@@ -84,6 +85,11 @@ constexpr const char* kFooter =
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
 
+const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Search::Auto},
+                                                          {"linear", brittle::Search::Linear},
+                                                          {"sphere_tree", brittle::Search::SphereTree},
+                                                          {"grid", brittle::Search::Grid}};
+
 // CLI11 takes -1 for the largest number, and what is too large for it as well.
 std::string wholeNumber(const std::string& text) {
     uint64_t number = 0;
@@ -110,6 +116,9 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_option("--sites-file", options->sites_file, "sites from a text file instead")
         ->excludes(sites)
         ->check(someText);
+    command->add_option("--search", options->search, "how cells find their neighbors: auto, linear, sphere_tree or grid")
+        ->transform(CLI::CheckedTransformer(kSearches).description(""))
+        ->option_text("NAME [auto]");
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");
     command->add_option("--picture", options->picture, "also draw them into this PNG file")->check(someText);

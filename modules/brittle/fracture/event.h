@@ -21,12 +21,15 @@ struct Event {
     const EventBuffers& b;
     const ScenePools& scene;
     Recorder& record;
+    Search search;        // never Auto
     uint32_t turn_budget; // loop turns of a lane of cut_cells
 };
 
 // place_sites, neighbor_grid
 void recordSites(const Event& e);
-// cut_cells
+// sphere_tree
+void recordSphereTree(const Event& e);
+// cut_cells, link_cells
 void recordCells(const Event& e);
 // classify_triangles, clip_triangles
 void recordClassification(const Event& e);

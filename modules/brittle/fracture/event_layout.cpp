@@ -121,6 +121,14 @@ void takeCells(const Input& in, Taker& take) {
     b.queue = take.words(n + c.exact_medium + c.exact_large);
     b.store = take.words(std::max(c.exact_medium * kMediumStore, c.exact_large * kLargeStore));
     b.cell_counts = take.quads(n);
+    uint64_t nodes = c.sphere_tree ? n : 0;
+    b.tree = take.quads(nodes);
+    b.tree_path = take.words(nodes);
+    b.tree_bids = take.words(2 * nodes);
+    b.leaf_counts = take.words(nodes);
+    b.leaf_start = take.words(nodes + 1);
+    b.loose_leaves = take.words(nodes);
+    b.leaf_sites = take.words(nodes);
 }
 
 void takeClipping(const Input& in, Taker& take) {

@@ -44,6 +44,7 @@ public:
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
         if (options.only_cells) capacity = forCellsOnly(capacity);
+        capacity.sphere_tree = options.search == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
             auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);
@@ -69,9 +70,11 @@ private:
         std::vector<Double3> local_sites;
     };
 
-    // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit.
-    static uint32_t turnBudget(const engine::Device& device) {
-        return device.isCpu() ? 60'000 / device.subgroupSize() : 1u << 20;
+    // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit. Going through all sites, which
+    // the lanes do together, takes its part of them.
+    static uint32_t turnBudget(const engine::Device& device, Search search, uint32_t sites) {
+        const uint32_t together = search == Search::Linear ? 2 * (sites / LINEAR_AT_ONCE + 1) : 0;
+        return device.isCpu() ? (60'000 - together) / device.subgroupSize() : 1u << 20;
     }
     // Triangles whose vertices one binding can hold; whole multiples of any alignment of views.
     static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
@@ -84,6 +87,10 @@ private:
 
     static engine::Result<Prepared> prepare(const Mesh& mesh, const FractureOptions& options) {
         if (siteCount(options) == 0) return engine::Error{engine::ErrorCode::BadInput, "no sites: ask for at least one"};
+        if (options.search == Search::Linear && siteCount(options) > MOST_LINEAR_SITES)
+            return engine::Error{engine::ErrorCode::Capacity, "linear search takes at most " +
+                                                                  std::to_string(MOST_LINEAR_SITES) +
+                                                                  " sites; search by grid or sphere_tree"};
         if (mesh.triangles.empty()) return engine::Error{engine::ErrorCode::BadInput, "the mesh has no triangles"};
         if (mesh.triangles.size() > kMostTriangles)
             return engine::Error{engine::ErrorCode::Capacity,
@@ -130,6 +137,7 @@ private:
 
     static void recordAll(const Event& event) {
         recordSites(event);
+        if (event.search == Search::SphereTree) recordSphereTree(event);
         recordCells(event);
         if (event.options.only_cells) return;
         recordClassification(event);
@@ -178,7 +186,9 @@ private:
         Recorder recorder(commands, kernels_, b.counts, b.args);
         recorder.clear({b.counts, b.args, b.placed, b.raw_sites});
         upload.copy(commands, *staging);
-        recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, turnBudget(device_)});
+        const Search search = chosenSearch(options.search);
+        recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, search,
+                   turnBudget(device_, search, capacity.sites)});
         if (auto ok = recorder.status(); !ok) return ok.error();
         auto start = Clock::now();
         if (auto ok = commands.submitAndWait(); !ok) return ok.error();

@@ -6,6 +6,7 @@
 #include "engine/kernel.h"
 #include "engine/result.h"
 #include "modules/brittle/fracture/fragments.h"
+#include "modules/brittle/fracture/search.h"
 #include "modules/brittle/mesh/mesh.h"
 
 #include <memory>
@@ -18,8 +19,9 @@ struct FractureOptions {
     uint32_t site_count = 100; // asked of the pattern; ignored where sites are given
     uint64_t seed = 1;
     std::vector<Double3> given_sites; // model space; empty: pattern `uniform`
-    bool only_cells = false;          // stop once the Voronoi cells are there: no fragments, for measuring
-    bool time_kernels = false;        // timings name kernels, not stages
+    Search search = Search::Auto;
+    bool only_cells = false;   // stop once the Voronoi cells are there: no fragments, for measuring
+    bool time_kernels = false; // timings name kernels, not stages
 };
 
 struct FractureCounts {

@@ -25,6 +25,7 @@ struct Capacities {
     uint32_t exact_medium = 0, exact_large = 0;
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
+    bool sphere_tree = false;
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     struct Rare {
@@ -66,6 +67,7 @@ struct EventBuffers {
     View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags,
         site_offsets;
     View sites, bin_counts, bin_start, bin_cursors, loose_sites, bin_sites;
+    View tree, tree_path, tree_bids, leaf_counts, leaf_start, loose_leaves, leaf_sites; // of the sphere tree, if asked for
     // cells
     View raw, cell_raw, queue, store, cell_counts, cell_offsets, neighbors, corners, corner_info, vertex_sites, edge_sites,
         edge_ends;

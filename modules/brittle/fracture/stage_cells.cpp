@@ -39,6 +39,19 @@ void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t 
         e.record.publish(COUNT_EXACT_MEDIUM + size_class, size_class == 0 ? e.capacity.exact_medium : e.capacity.exact_large);
 }
 
+void recordFiltered(const Event& e, const FastPush& push) {
+    const auto& b = e.b;
+    const Length sites = Length::of(e.capacity.sites);
+    switch (e.search) {
+    case Search::Linear:
+        return e.record.run("cut_cells_linear", sites, push, {e.record.counts(), b.bin_sites, b.raw, b.cell_raw});
+    case Search::SphereTree:
+        return e.record.run("cut_cells_tree", sites, push,
+                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.tree, b.leaf_start, b.leaf_sites});
+    default: return e.record.run("cut_cells", sites, push, {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.bin_start});
+    }
+}
+
 void recordCutting(const Event& e) {
     const auto& b = e.b;
     FastPush fast = {e.grid.bins,
@@ -46,8 +59,7 @@ void recordCutting(const Event& e) {
                      {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},
                      e.capacity.sites,
                      e.turn_budget};
-    e.record.run("cut_cells", Length::of(e.capacity.sites), fast,
-                 {e.record.counts(), b.bin_start, b.bin_sites, b.raw, b.cell_raw});
+    recordFiltered(e, fast);
     e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
     e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
     recordExact(e, "cut_cells_exact", e.capacity.rare.exact_cells, 0);
