@@ -1,7 +1,11 @@
-// Sites inside the mesh, uniform: points of the box, those outside the solid drawn again. Integers only, keyed by (seed,
-// site, try), so that every device places the same sites. A first draw picks one of the columns that the surface covers,
-// which keeps thin models from rejecting nearly everything; inside or outside is the winding number along +z, exact, with
-// the point moved by (eps, eps^2) in x and y against ties.
+// Sites inside the mesh, those outside the solid drawn again: evenly, or (IMPACT) about a place where it is hit.
+//
+// Evenly: points of the box. A first draw picks one of the columns that the surface covers, which keeps thin models from
+// rejecting nearly everything.
+//
+// About an impact the density is even within the contact radius r0 and falls as r^-4 outside. The radius comes from the
+// inverse of its cumulated density, u = (r / r0)^3 / 3 up to r0, then 4/3 - r0 / r; a point drawn evenly from a ball has the
+// direction and, within r0, the radius as well.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -17,71 +21,68 @@ READS(5, ivec4, columns); // occupied ones: x, y index, lowest and highest z
 UPDATES(6, uint, raw_sites);
 UPDATES(7, uint, placed);
 layout(push_constant) uniform Push {
-    ivec4 low;  // of the mesh on the grid; w: edge of a column
-    ivec4 high; // w: columns in a row
+    ivec4 low;    // of the mesh on the grid; w: edge of a column
+    ivec4 high;   // w: columns in a row
+    ivec4 impact; // where the solid is hit; w: contact radius
     uint site_count;
     uint occupied;
     uint seed_low;
     uint seed_high;
     uint first_try;
+    uint triangle_count;
+    uint favor; // of 2^32: how often the candidate nearest to the impact is taken
+    uint furthest; // place in the mesh, from the impact
 };
+#include "lib/place_in_mesh.glsl"
 
-uint mixed(uint h) {
-    h = (h ^ (h >> 16)) * 0x7feb352du;
-    h = (h ^ (h >> 15)) * 0x846ca68bu;
-    return h ^ (h >> 16);
+#ifdef IMPACT
+#include "lib/integer_root.glsl"
+
+// A point of the ball of radius 2^15, or, three times in seven, none.
+bool drawInBall(uint site, uint attempt, out ivec3 d) {
+    d = ivec3(below(draw(site, attempt, 0u), 65537u), below(draw(site, attempt, 1u), 65537u), below(draw(site, attempt, 2u), 65537u)) - 32768;
+    int64_t square = int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z);
+    return !isNegative((int64_t(1) << 30) - square) && d != ivec3(0);
 }
 
-uint draw(uint site, uint attempt, uint axis) {
-    return mixed(mixed(mixed(mixed(seed_low + 0x9e3779b9u) ^ seed_high) + site * 0x85ebca6bu) ^ (attempt * 4u + axis + 1u));
+bool drawPlace(uint site, uint attempt, out ivec3 p) {
+    ivec3 d;
+    bool in_ball = drawInBall(site, attempt, d);
+    // u of 2^32 runs from 0 to 4/3 - r0 / furthest; the core has a third.
+    uint64_t one = uint64_t(1) << 32, radius = uint64_t(impact.w);
+    uint64_t range = 4ul * one / 3ul - (radius << 32) / uint64_t(furthest);
+    uint64_t u = (uint64_t(draw(site, attempt, 3u)) * (range >> 1)) >> 31; // the product has 64 bits
+    bool core = (u >> 32) == 0ul && uint(u) < 0x55555555u;
+    uint64_t tail = (radius << 32) / max(4ul * one / 3ul - u, 1ul);
+    uint size = rootOf64(uint64_t(int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z)));
+    int64_t scale = int64_t(core ? radius : tail);
+    int64_t divisor = int64_t(core ? 32768u : max(size, 1u));
+    p = impact.xyz + ivec3(int64_t(d.x) * scale / divisor, int64_t(d.y) * scale / divisor, int64_t(d.z) * scale / divisor);
+    return in_ball && all(greaterThanEqual(p, low.xyz)) && all(lessThanEqual(p, high.xyz));
 }
-
-uint below(uint random, uint n) { return uint((uint64_t(random) * uint64_t(n)) >> 32); }
-
-// On which side of a -> b the moved point lies; 0 only where a and b fall together.
-int sideOfEdge(ivec3 a, ivec3 b, ivec3 p) {
-    int64_t s = int64_t(b.x - a.x) * int64_t(p.y - a.y) - int64_t(b.y - a.y) * int64_t(p.x - a.x);
-    return !isZero(s) ? signOf(s) : (b.y != a.y ? sign(a.y - b.y) : sign(b.x - a.x));
+#else
+bool drawPlace(uint site, uint attempt, out ivec3 p) {
+    ivec4 c = columns[below(draw(site, attempt, 0u), occupied)];
+    p.x = low.x + c.x * low.w + int(below(draw(site, attempt, 1u), uint(low.w)));
+    p.y = low.y + c.y * low.w + int(below(draw(site, attempt, 2u), uint(low.w)));
+    p.z = low.z + int(below(draw(site, attempt, 3u), uint(high.z - low.z + 1)));
+    return p.x <= high.x && p.y <= high.y && p.z >= c.z && p.z <= c.w;
 }
-
-int windingAbove(ivec3 a, ivec3 b, ivec3 c, ivec3 p) {
-    int s = sideOfEdge(a, b, p);
-    bool crossed = s != 0 && sideOfEdge(b, c, p) == s && sideOfEdge(c, a, p) == s;
-    ivec3 u = b - a, w = c - a, d = p - a;
-    int64_t nx = int64_t(u.y) * int64_t(w.z) - int64_t(u.z) * int64_t(w.y);
-    int64_t ny = int64_t(u.z) * int64_t(w.x) - int64_t(u.x) * int64_t(w.z);
-    int64_t nz = int64_t(u.x) * int64_t(w.y) - int64_t(u.y) * int64_t(w.x);
-    int height = wideSign(wideAdd(wideAdd(wideMul(nx, int64_t(d.x)), wideMul(ny, int64_t(d.y))), wideMul(nz, int64_t(d.z))));
-    return crossed && height * s < 0 ? s : 0;
-}
+#endif
 
 void main() {
     uint site = flatIndex();
     if (site >= site_count) return;
     bool done = placed[site] != 0u;
-    uint budget = 40000u, attempt = first_try, last_try = first_try + 512u;
-    for (uint turn = 0u; turn < 512u && !done && attempt < last_try && budget > 0u; turn++) {
+    uint budget = 40000u, attempt = first_try, last_try = first_try + TRIES_A_ROUND;
+    for (uint turn = 0u; turn < TRIES_A_ROUND && !done && attempt < last_try && budget > 0u; turn++) {
         ivec3 p = ivec3(0);
-        uint column = 0u;
         bool candidate = false;
         for (; attempt < last_try && !candidate; attempt++) {
-            ivec4 c = columns[below(draw(site, attempt, 0u), occupied)];
-            p.x = low.x + c.x * low.w + int(below(draw(site, attempt, 1u), uint(low.w)));
-            p.y = low.y + c.y * low.w + int(below(draw(site, attempt, 2u), uint(low.w)));
-            p.z = low.z + int(below(draw(site, attempt, 3u), uint(high.z - low.z + 1)));
-            candidate = p.x <= high.x && p.y <= high.y && p.z >= c.z && p.z <= c.w;
-            column = uint(c.y * high.w + c.x);
+            candidate = drawPlace(site, attempt, p);
             budget -= min(budget, 1u);
         }
-        uint last = candidate ? column_start[column + 1u] : 0u;
-        int winding = 0;
-        for (uint k = candidate ? column_start[column] : 0u; k < last && budget > 0u; k++) {
-            uint t = column_triangles[k];
-            winding += windingAbove(grid_vertices[triangles[3u * t]].xyz, grid_vertices[triangles[3u * t + 1u]].xyz,
-                                    grid_vertices[triangles[3u * t + 2u]].xyz, p);
-            budget -= min(budget, 1u);
-        }
-        done = winding > 0 && budget > 0u;
+        done = insideSolid(p, candidate, budget);
         if (done) {
             raw_sites[3u * site] = uint(p.x);
             raw_sites[3u * site + 1u] = uint(p.y);

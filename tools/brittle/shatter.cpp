@@ -147,6 +147,9 @@ engine::Result<void> Run::breakModel() {
     options.seed = options_.seed;
     options.given_sites = given_sites_;
     options.search = options_.search;
+    options.pattern = options_.pattern;
+    options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
+                      brittle::favorOf(options_.strength)};
     auto fracture = brittle::Fracture::create(*device_);
     if (!fracture) return fracture.error();
     auto result = (*fracture)->shatter(model_->mesh, model_->topology, options);

@@ -5,6 +5,7 @@
 #include "modules/brittle/fracture/verify.h"
 #include "modules/brittle/mesh/check.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,9 @@ struct ShatterOptions {
     std::string model, output, device;
     std::string sites_file; // instead of a number of sites
     std::string picture;    // of the fragments, moved apart
+    brittle::Pattern pattern = brittle::Pattern::Uniform;
+    std::optional<brittle::Double3> at; // where it is hit; the center of its box if nowhere else
+    double strength = 1;                // joules
     brittle::Search search = brittle::Search::Auto;
     double explode = 0;
     uint32_t sites = 100;

@@ -81,10 +81,13 @@ constexpr const char* kFooter =
     "  brittle shatter vase.stl -o pieces.glb --sites 200 --seed 7 --verify\n"
     "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
     "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
+    "  brittle shatter vase.stl -o pieces.glb --sites 80 --at 0,0.1,0.3 --strength 5\n"
     "\n"
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
 
+const std::map<std::string, brittle::Pattern> kPatterns = {
+    {"uniform", brittle::Pattern::Uniform}, {"impact", brittle::Pattern::Impact}, {"paper", brittle::Pattern::Paper}};
 const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Search::Auto},
                                                           {"linear", brittle::Search::Linear},
                                                           {"sphere_tree", brittle::Search::SphereTree},
@@ -98,6 +101,41 @@ std::string wholeNumber(const std::string& text) {
 }
 
 std::string someText(const std::string& text) { return text.empty() ? "an empty name; leave the option out instead" : ""; }
+
+// "X,Y,Z"
+std::optional<brittle::Double3> placeOf(const std::string& text) {
+    brittle::Double3 place;
+    const char* at = text.c_str();
+    for (size_t k = 0; k < 3; ++k) {
+        char* end = nullptr;
+        place[k] = std::strtod(at, &end);
+        if (end == at || !std::isfinite(place[k]) || *end != (k < 2 ? ',' : '\0')) return std::nullopt;
+        at = end + 1;
+    }
+    return place;
+}
+
+void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& options) {
+    CLI::Option* pattern =
+        command
+            .add_option("--pattern", options->pattern,
+                        "where sites are placed: uniform, impact or paper; with --at impact if not said otherwise")
+            ->transform(CLI::CheckedTransformer(kPatterns).description(""))
+            ->option_text("NAME [uniform]");
+    command
+        .add_option_function<std::string>(
+            "--at",
+            [options, pattern](const std::string& text) {
+                options->at = placeOf(text);
+                if (pattern->count() == 0) options->pattern = brittle::Pattern::Impact;
+            },
+            "where the model is hit, X,Y,Z in its coordinates; without it the center of its box")
+        ->check([](const std::string& text) { return placeOf(text) ? "" : "\"" + text + "\" is no place X,Y,Z"; });
+    command.add_option("--strength", options->strength, "of the hit, in joules where the model is in meters")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1e12))
+        ->check([](const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; });
+}
 
 } // namespace
 
@@ -116,6 +154,7 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_option("--sites-file", options->sites_file, "sites from a text file instead")
         ->excludes(sites)
         ->check(someText);
+    addPattern(*command, options);
     command->add_option("--search", options->search, "how cells find their neighbors: auto, linear, sphere_tree or grid")
         ->transform(CLI::CheckedTransformer(kSearches).description(""))
         ->option_text("NAME [auto]");

@@ -8,7 +8,8 @@ namespace brittle {
 namespace {
 
 constexpr double kSitesPerBin = 2.0;
-constexpr double kFarthestSite = 256.0; // in half diagonals of the mesh's box
+constexpr double kLeastShare = 1.0 / 32; // of the bins that sites fall into: finer ones are not made
+constexpr double kFarthestSite = 256.0;  // in half diagonals of the mesh's box
 
 Int3 snapVertex(const EventGrid& grid, const Float3& p) { return snapToGrid(grid, {p[0], p[1], p[2]}); }
 
@@ -78,13 +79,11 @@ double filledShare(const Mesh& mesh, const EventGrid& grid) {
     }
     for (size_t k = 0; k < 3; k++)
         box *= (grid.box_high[k] - grid.box_low[k] + 1.0) * static_cast<double>(grid.step);
-    return std::clamp(six_volumes / 6 / box, 1.0 / 32, 1.0);
+    return std::clamp(six_volumes / 6 / box, kLeastShare, 1.0);
 }
 
-// Share of evenly laid bins that any site falls into: what clusters leave empty, finer bins make up for.
-double occupiedShare(EventGrid grid, std::span<const Double3> sites) {
-    uint64_t count = binsOfEdge(grid, grid.bins[3], grid.bins);
-    std::vector<bool> occupied(count, false);
+std::vector<uint32_t> countInBins(const EventGrid& grid, std::span<const Double3> sites) {
+    std::vector<uint32_t> counts(grid.binCount(), 0);
     for (const Double3& s : sites) {
         Int3 p = snapToGrid(grid, s);
         uint64_t bin = 0;
@@ -92,10 +91,16 @@ double occupiedShare(EventGrid grid, std::span<const Double3> sites) {
             int32_t at = std::min((p[k] - grid.box_low[k]) / grid.bins[3], grid.bins[k] - 1);
             bin = bin * static_cast<uint64_t>(grid.bins[k]) + static_cast<uint64_t>(at);
         }
-        occupied[bin] = true;
+        counts[bin]++;
     }
-    double share = static_cast<double>(std::count(occupied.begin(), occupied.end(), true)) / static_cast<double>(count);
-    return std::clamp(share, 1.0 / 32, 1.0);
+    return counts;
+}
+
+// Share of evenly laid bins that any site falls into: what clusters leave empty, finer bins make up for.
+double occupiedShare(const EventGrid& grid, std::span<const Double3> sites) {
+    const std::vector<uint32_t> counts = countInBins(grid, sites);
+    const auto empty = static_cast<double>(std::ranges::count(counts, 0u));
+    return std::clamp(1 - empty / static_cast<double>(counts.size()), kLeastShare, 1.0);
 }
 
 // The finest cubic bins of which there are no more than the sites call for.
@@ -129,7 +134,7 @@ Double3 fromGrid(const EventGrid& grid, const Int3& position) {
     return p;
 }
 
-engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count) {
+engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count, bool crowded) {
     auto reach = farthestSite(sites, farthestCoordinate(mesh));
     if (!reach) return reach.error();
     EventGrid grid;
@@ -139,8 +144,11 @@ engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double
     grid.scale = std::ldexp(1.0f, exponent);
     grid.step = std::ldexp(1.0f, -exponent);
     setBox(grid, mesh, sites);
-    setBins(grid, site_count, sites.empty() ? filledShare(mesh, grid) : 1.0);
-    if (!sites.empty()) setBins(grid, site_count, occupiedShare(grid, sites));
+    setBins(grid, site_count, crowded ? kLeastShare : sites.empty() ? filledShare(mesh, grid) : 1.0);
+    if (!sites.empty()) {
+        setBins(grid, site_count, occupiedShare(grid, sites));
+        grid.fullest_bin = std::ranges::max(countInBins(grid, sites));
+    }
     return grid;
 }
 

@@ -21,6 +21,7 @@ struct EventGrid {
     Int3 mesh_low{}, mesh_high{}; // of the mesh on the grid
     Int3 box_low{}, box_high{};   // mesh and sites never touch it
     Int4 bins{};                  // per axis; [3]: edge of a bin in grid steps
+    uint32_t fullest_bin = 0;     // of given sites
     uint32_t binCount() const {
         return static_cast<uint32_t>(bins[0]) * static_cast<uint32_t>(bins[1]) * static_cast<uint32_t>(bins[2]);
     }
@@ -33,7 +34,9 @@ constexpr int32_t kGridMargin = 8;
 
 // `sites` are relative to the mesh's center. Errors: BadInput where a site is not finite, or so far away that the mesh would
 // be left with too few grid steps.
-engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count);
+// `crowded`: sites that are yet to be placed will lie closely somewhere, so that bins are made finer.
+engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count,
+                                        bool crowded = false);
 
 Int3 snapToGrid(const EventGrid& grid, const Double3& position);
 Double3 fromGrid(const EventGrid& grid, const Int3& position);

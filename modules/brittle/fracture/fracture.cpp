@@ -6,8 +6,11 @@
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
 #include "modules/brittle/fracture/warm_kernels.h"
+#include "modules/brittle/mesh/vector_math.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace brittle {
 namespace {
@@ -44,7 +47,7 @@ public:
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
         if (options.only_cells) capacity = forCellsOnly(capacity);
-        capacity.sphere_tree = options.search == Search::SphereTree;
+        capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
             auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);
@@ -81,8 +84,31 @@ private:
         uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
         return static_cast<uint32_t>(std::min<uint64_t>(fit, 1u << 28)) / 256 * 256;
     }
+    static bool aboutImpact(const FractureOptions& options) {
+        return options.given_sites.empty() && options.pattern == Pattern::Impact;
+    }
+    static Search searchOf(const FractureOptions& options, const EventGrid& grid) {
+        return chosenSearch(options.search, aboutImpact(options) || grid.fullest_bin > kCrowdedBin);
+    }
     static uint32_t siteCount(const FractureOptions& options) {
         return options.given_sites.empty() ? options.site_count : static_cast<uint32_t>(options.given_sites.size());
+    }
+
+    static engine::Result<void> checkImpact(const Mesh& mesh, const FractureOptions& options) {
+        if (options.pattern == Pattern::Uniform || !options.given_sites.empty()) return {};
+        const Impact& impact = options.impact;
+        const Double3 from_center = impact.place - mesh.center;
+        double reach = 0;
+        for (const Float3& p : mesh.positions)
+            reach = std::max({reach, double(std::fabs(p[0])), double(std::fabs(p[1])), double(std::fabs(p[2]))});
+        for (double x : from_center)
+            if (!(std::fabs(x) <= 16 * reach))
+                return engine::Error{
+                    engine::ErrorCode::BadInput,
+                    "the impact is not finite or lies more than 16 times the model's size away; move it closer"};
+        if (!(impact.contact_radius >= 0) || !(impact.favor >= 0))
+            return engine::Error{engine::ErrorCode::BadInput, "an impact's strength is negative or no number"};
+        return {};
     }
 
     static engine::Result<Prepared> prepare(const Mesh& mesh, const FractureOptions& options) {
@@ -95,13 +121,14 @@ private:
         if (mesh.triangles.size() > kMostTriangles)
             return engine::Error{engine::ErrorCode::Capacity,
                                  "the mesh has more than " + std::to_string(kMostTriangles) + " triangles; reduce it"};
+        if (auto sound = checkImpact(mesh, options); !sound) return sound.error();
         Prepared p;
         for (Double3 s : options.given_sites) {
             for (size_t k = 0; k < 3; k++)
                 s[k] -= mesh.center[k];
             p.local_sites.push_back(s);
         }
-        auto grid = makeEventGrid(mesh, p.local_sites, siteCount(options));
+        auto grid = makeEventGrid(mesh, p.local_sites, siteCount(options), aboutImpact(options));
         if (!grid) return grid.error();
         p.grid = *grid;
         if (options.given_sites.empty()) p.columns = makeColumns(mesh, p.grid);
@@ -186,7 +213,7 @@ private:
         Recorder recorder(commands, kernels_, b.counts, b.args);
         recorder.clear({b.counts, b.args, b.placed, b.raw_sites});
         upload.copy(commands, *staging);
-        const Search search = chosenSearch(options.search);
+        const Search search = searchOf(options, p.grid);
         recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, search,
                    turnBudget(device_, search, capacity.sites)});
         if (auto ok = recorder.status(); !ok) return ok.error();

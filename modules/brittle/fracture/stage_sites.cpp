@@ -1,31 +1,71 @@
 // Sites: placed in the mesh or given, welded where they fall together, and sorted into the bins of the search grid.
 #include "modules/brittle/fracture/event.h"
+#include "modules/brittle/mesh/vector_math.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace brittle {
 namespace {
 
-constexpr uint32_t kPlacementRounds = 4, kTriesPerRound = 512;
+// Of the pattern that was asked for, then evenly for sites that it found no place for.
+constexpr uint32_t kPatternRounds = 2, kEvenRounds = 4;
 
 struct PlacePush {
-    int32_t low[4], high[4];
-    uint32_t site_count, occupied, seed_low, seed_high, first_try;
+    Int4 low, high, impact;
+    uint32_t site_count, occupied, seed_low, seed_high, first_try, triangle_count, favor, furthest;
 };
 
-void recordPlacement(const Event& e) {
+Int4 withLast(const Int3& p, int32_t last) { return {p[0], p[1], p[2], last}; }
+
+double furthestPlace(const EventGrid& g, const Int3& from) {
+    double square = 0;
+    for (size_t k = 0; k < 3; k++)
+        square += std::pow(std::max(std::abs(g.mesh_low[k] - from[k]), std::abs(g.mesh_high[k] - from[k])), 2.0);
+    return std::ceil(std::sqrt(square)) + 1;
+}
+
+PlacePush placePush(const Event& e) {
     const EventGrid& g = e.grid;
-    PlacePush push = {{g.mesh_low[0], g.mesh_low[1], g.mesh_low[2], e.columns.edge},
-                      {g.mesh_high[0], g.mesh_high[1], g.mesh_high[2], e.columns.per_row},
-                      e.capacity.sites,
-                      static_cast<uint32_t>(e.columns.occupied.size()),
-                      static_cast<uint32_t>(e.options.seed),
-                      static_cast<uint32_t>(e.options.seed >> 32),
-                      0};
-    for (uint32_t round = 0; round < kPlacementRounds; round++) {
-        push.first_try = round * kTriesPerRound;
+    const Impact& impact = e.options.impact;
+    const Int3 place = snapToGrid(g, impact.place - e.mesh.center);
+    const double furthest = furthestPlace(g, place);
+    const double radius = std::clamp(impact.contact_radius * static_cast<double>(g.scale), 1.0, furthest);
+    return {withLast(g.mesh_low, e.columns.edge),
+            withLast(g.mesh_high, e.columns.per_row),
+            withLast(place, static_cast<int32_t>(radius)),
+            e.capacity.sites,
+            static_cast<uint32_t>(e.columns.occupied.size()),
+            static_cast<uint32_t>(e.options.seed),
+            static_cast<uint32_t>(e.options.seed >> 32),
+            0,
+            e.capacity.triangles,
+            static_cast<uint32_t>(std::clamp(impact.favor, 0.0, 1.0) * 4294967295.0),
+            static_cast<uint32_t>(furthest)};
+}
+
+void recordPatternRound(const Event& e, const PlacePush& push) {
+    const auto& b = e.b;
+    const uint32_t sites = e.capacity.sites;
+    if (e.options.pattern == Pattern::Paper)
+        e.record.runGroups(
+            "place_sites_paper", (sites + 31) / 32, push,
+            {e.record.counts(), b.grid_vertices, b.mesh_triangles, b.column_start, b.column_triangles, b.raw_sites, b.placed});
+    else
+        e.record.run("place_sites_impact", Length::of(sites), push,
+                     {e.record.counts(), b.grid_vertices, b.mesh_triangles, b.column_start, b.column_triangles, b.columns,
+                      b.raw_sites, b.placed});
+}
+
+void recordPlacement(const Event& e) {
+    PlacePush push = placePush(e);
+    if (e.options.pattern != Pattern::Uniform)
+        for (uint32_t round = 0; round < kPatternRounds; round++, push.first_try += TRIES_A_ROUND)
+            recordPatternRound(e, push);
+    for (uint32_t round = 0; round < kEvenRounds; round++, push.first_try += TRIES_A_ROUND)
         e.record.run("place_sites", Length::of(e.capacity.sites), push,
                      {e.record.counts(), e.b.grid_vertices, e.b.mesh_triangles, e.b.column_start, e.b.column_triangles,
                       e.b.columns, e.b.raw_sites, e.b.placed});
-    }
 }
 
 void recordSiteWelding(const Event& e) {
