@@ -11,7 +11,7 @@ packages=(
   # libraries
   libassimp-dev libcli11-dev libeigen3-dev libstb-dev libtinygltf-dev nlohmann-json3-dev
   # tests, and the peers of the bench
-  libgtest-dev librapidcheck-dev clang-tidy libcgal-dev libgmp-dev libmpfr-dev voro++-dev
+  libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libcgal-dev libgmp-dev libmpfr-dev voro++-dev
 )
 
 installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }

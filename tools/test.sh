@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # tools/test.sh [--long]: sets up, builds and runs the tests: all of them in the release build, a part of them under the Vulkan
-# validation layers (core, synchronization, GPU-assisted), a part of them under the address and undefined-behavior sanitizers.
+# validation layers (core, synchronization, GPU-assisted), a part of them under the address and undefined-behavior sanitizers,
+# and the fuzzers of the importers for a minute in all (tools/fuzz.sh runs them for longer).
 # --long adds the long tests: larger models, more sites and seeds, the slow cases of the kernels.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -39,6 +40,8 @@ step validation ctest --preset validation --label-regex '^validation$' --no-test
 step build-asan tools/build.sh asan brittle_tests_engine brittle_tests_hard brittle_tests_kernel brittle_tests_module \
   brittle_tests_reference
 step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
+step build-fuzz tools/build.sh fuzz
+step fuzz ctest --preset fuzz --label-regex '^fuzz$' --no-tests=error --parallel 2
 if $long; then
   step long ctest --preset release --label-regex '^long$' --no-tests=error
 fi

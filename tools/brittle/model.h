@@ -1,16 +1,31 @@
 // The model that a command is about.
 #pragma once
 
-#include "engine/result.h"
-#include "modules/brittle/mesh/prepare.h"
+#include "modules/brittle/mesh/check.h"
+#include "modules/brittle/mesh/repair/repair.h"
+
+#include <nlohmann/json.hpp>
 
 #include <string>
 
 namespace cli {
 
 constexpr const char* kModelHelp = "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME";
+constexpr const char* kRepairHelp =
+    "mend what is well defined (seams, doubled triangles, orientation, small holes); refuse the rest";
 
-// From a file, or by name after "builtin:". Read and prepared, not yet checked. Errors begin with the name given.
-engine::Result<brittle::PreparedMesh> loadModel(const std::string& name);
+// From a file, or by name after "builtin:". Errors of all of these begin with the name given.
+engine::Result<brittle::ImportedMesh> importModel(const std::string& name);
+
+// Prepared, not yet checked. With `repair` mended as well, if it needs to be, and then sound for sure.
+engine::Result<brittle::RepairedMesh> loadModel(const std::string& name, bool repair);
+
+// What to add to a refusal: that --repair may help, where it may.
+std::string adviceToRepair(const brittle::MeshReport& report);
+
+// One line on stderr; nothing where nothing was mended.
+void reportMended(const std::string& name, const brittle::RepairNotes& notes);
+// Counts and places, in model space, of all that was mended.
+nlohmann::ordered_json mendedJson(const brittle::RepairNotes& notes);
 
 } // namespace cli

@@ -5,10 +5,10 @@
 #include "tools/brittle/model.h"
 #include "tools/brittle/picture.h"
 #include "tools/brittle/progress.h"
+#include "tools/brittle/same_file.h"
 #include "tools/brittle/sites_file.h"
 
 #include <chrono>
-#include <filesystem>
 #include <optional>
 
 namespace cli {
@@ -78,14 +78,6 @@ engine::Result<ShatterOutcome> Run::all() {
     return std::move(outcome_);
 }
 
-// By whatever names: links and detours are followed.
-bool sameFile(const std::string& a, const std::string& b) {
-    if (a.empty() || b.empty()) return false;
-    std::error_code ignored;
-    if (std::filesystem::equivalent(a, b, ignored)) return true;
-    return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
-}
-
 engine::Result<void> Run::checkPathsApart() const {
     const auto refused = [](const std::string& path, const std::string& why) {
         return engine::Error{engine::ErrorCode::BadInput, path + ": " + why};
@@ -112,16 +104,17 @@ engine::Result<void> Run::openOutputs() {
 }
 
 engine::Result<void> Run::readModel() {
-    auto model = loadModel(options_.model);
+    auto model = loadModel(options_.model, options_.repair);
     if (!model) return model.error();
-    model_.emplace(std::move(*model));
+    model_.emplace(std::move(model->model));
+    outcome_.mended = std::move(model->notes);
     return {};
 }
 
 engine::Result<void> Run::checkModel() {
-    auto report = brittle::checkMesh(model_->mesh, model_->topology);
-    if (!report) return aboutModel(report.error());
-    outcome_.model = std::move(*report);
+    brittle::MeshReport report = brittle::inspectMesh(model_->mesh, model_->topology);
+    if (!report.isSound()) return aboutModel({engine::ErrorCode::BadInput, report.problems.front() + adviceToRepair(report)});
+    outcome_.model = std::move(report);
     return {};
 }
 

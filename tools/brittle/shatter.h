@@ -4,6 +4,7 @@
 #include "modules/brittle/fracture/fracture.h"
 #include "modules/brittle/fracture/verify.h"
 #include "modules/brittle/mesh/check.h"
+#include "modules/brittle/mesh/repair/repair.h"
 
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct ShatterOptions {
     double explode = 0;
     uint32_t sites = 100;
     uint64_t seed = 1;
+    bool repair = false; // mend the model where it needs to be
     bool verify = false; // refuse fragments that break their contract
     bool as_json = false;
 };
@@ -30,6 +32,7 @@ struct ShatterOptions {
 struct ShatterOutcome {
     std::string device;
     brittle::MeshReport model;
+    brittle::RepairNotes mended; // where it was asked for
     brittle::FractureResult result;
     brittle::ContractReport contract;               // where it was asked for
     std::vector<std::pair<std::string, double>> ms; // by what was done, in order; the stages on the device among them

@@ -1,6 +1,7 @@
 // brittle shatter: its options and what it prints.
 #include "modules/brittle/mesh/format.h"
 #include "tools/brittle/command.h"
+#include "tools/brittle/model.h"
 #include "tools/brittle/shatter.h"
 
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
     nlohmann::ordered_json ms = {{"total", outcome.total_ms}};
     for (const auto& [name, value] : outcome.ms)
         ms[name] = value;
-    return {
+    nlohmann::ordered_json json = {
         {"device", outcome.device},
         {"model",
          {{"vertices", outcome.model.vertices},
@@ -44,6 +45,8 @@ nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
         {"exact_cells", {{"total", counts.exact_total}, {"redone", counts.exact_redone}}},
         {"ms", ms},
     };
+    if (!outcome.mended.isEmpty()) json["mended"] = mendedJson(outcome.mended);
+    return json;
 }
 
 void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
@@ -69,6 +72,7 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
 int runShatter(const ShatterOptions& options) {
     const auto outcome = shatter(options);
     if (!outcome) return fail(outcome.error());
+    reportMended(options.model, outcome->mended);
     if (options.as_json)
         std::printf("%s\n", toJson(*outcome).dump(2).c_str());
     else
@@ -143,7 +147,7 @@ void addShatter(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("shatter", "Break a closed model into closed fragments.");
     command->footer(kFooter);
     auto options = std::make_shared<ShatterOptions>();
-    command->add_option("MODEL", options->model, "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME")->required();
+    command->add_option("MODEL", options->model, kModelHelp)->required();
     command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")
         ->required()
         ->check(someText);
@@ -158,6 +162,7 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_option("--search", options->search, "how cells find their neighbors: auto, linear, sphere_tree or grid")
         ->transform(CLI::CheckedTransformer(kSearches).description(""))
         ->option_text("NAME [auto]");
+    command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");
     command->add_option("--picture", options->picture, "also draw them into this PNG file")->check(someText);

@@ -63,15 +63,10 @@ void Inspector::complain(uint64_t count, const std::string& what, const Double3&
 
 Double3 Inspector::midpoint(uint32_t edge) const {
     const auto& [a, b] = topology_.edges[edge];
-    return 0.5 * (toDouble(mesh_.positions[a]) + toDouble(mesh_.positions[b]));
+    return middleOfEdge(mesh_, a, b);
 }
 
-Double3 Inspector::midpointOf(uint32_t triangle) const {
-    Double3 sum = {0, 0, 0};
-    for (const uint32_t v : mesh_.triangles[triangle])
-        sum += toDouble(mesh_.positions[v]);
-    return (1.0 / 3) * sum;
-}
+Double3 Inspector::midpointOf(uint32_t triangle) const { return middleOf(cornersOf(mesh_, triangle)); }
 
 // An edge is sound when as many triangles run along it one way as the other.
 void Inspector::countEdges() {
@@ -105,22 +100,12 @@ void Inspector::countEdges() {
 }
 
 void Inspector::countTriangles() {
-    std::vector<std::pair<Index3, uint32_t>> sorted;
-    sorted.reserve(mesh_.triangles.size());
-    for (uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        Index3 corners = mesh_.triangles[t];
-        const Double3 a = toDouble(mesh_.positions[corners[0]]), b = toDouble(mesh_.positions[corners[1]]),
-                      c = toDouble(mesh_.positions[corners[2]]);
-        const double longest = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-        report_.flat_triangles += length(cross(b - a, c - a)) <= 1e-12 * longest ? 1 : 0;
-        std::sort(corners.begin(), corners.end());
-        sorted.emplace_back(corners, t);
-    }
-    std::sort(sorted.begin(), sorted.end());
-    uint32_t first = 0;
-    for (size_t k = 1; k < sorted.size(); ++k)
-        if (sorted[k].first == sorted[k - 1].first && report_.duplicate_triangles++ == 0) first = sorted[k].second;
-    complain(report_.duplicate_triangles, "doubled triangle", midpointOf(first),
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t)
+        report_.flat_triangles += isFlat(cornersOf(mesh_, t)) ? 1 : 0;
+    const std::vector<uint32_t> duplicates = findDuplicates(mesh_);
+    if (duplicates.empty()) return;
+    report_.duplicate_triangles = static_cast<uint32_t>(duplicates.size());
+    complain(report_.duplicate_triangles, "doubled triangle", middleOf(cornersOf(mesh_, duplicates.front())),
              "remove doubled faces, or give the sheet a thickness");
 }
 
@@ -133,6 +118,10 @@ void Inspector::checkVolume() {
 void Inspector::checkCrossings(const TriangleTree& tree) {
     report_.self_intersection = findSelfIntersections(mesh_, tree, report_.measures.diagonal);
     const SelfIntersection& found = report_.self_intersection;
+    if (found.gave_up)
+        report_.problems.push_back(
+            "more than " + std::to_string(kMaxPairTests) +
+            " pairs of triangles so close that their boxes touch, too many to look through; simplify it");
     if (found.crossing_pairs == 0) return;
     const std::string more = found.crossing_pairs >= kMaxCrossings ? "more than " : "";
     report_.problems.push_back(more + formatCount(found.crossing_pairs, "pair") + " of triangles that cross, " +
@@ -152,6 +141,21 @@ void Inspector::checkNesting(const TriangleTree& tree) {
 }
 
 } // namespace
+
+std::vector<uint32_t> findDuplicates(const Mesh& mesh) {
+    std::vector<std::pair<Index3, uint32_t>> sorted;
+    sorted.reserve(mesh.triangles.size());
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        Index3 corners = mesh.triangles[t];
+        std::sort(corners.begin(), corners.end());
+        sorted.emplace_back(corners, t);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<uint32_t> duplicates;
+    for (size_t k = 1; k < sorted.size(); ++k)
+        if (sorted[k].first == sorted[k - 1].first) duplicates.push_back(sorted[k].second);
+    return duplicates;
+}
 
 MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology) { return Inspector(mesh, topology).run(); }
 

@@ -26,6 +26,9 @@ struct MeshReport {
     bool isSound() const { return problems.empty(); }
 };
 
+// Triangles that have the same three corners as an earlier one, whichever way they face.
+std::vector<uint32_t> findDuplicates(const Mesh& mesh);
+
 // Looks for everything that may be wrong.
 MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology);
 

@@ -1,6 +1,7 @@
 #include "modules/brittle/mesh/components.h"
 
 #include "modules/brittle/mesh/topology.h"
+#include "modules/brittle/mesh/triangle_shape.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,15 +9,6 @@
 
 namespace brittle {
 namespace {
-
-using Corners = std::array<Double3, 3>;
-
-Corners cornersOf(const Mesh& mesh, uint32_t triangle) {
-    const Index3& t = mesh.triangles[triangle];
-    return {toDouble(mesh.positions[t[0]]), toDouble(mesh.positions[t[1]]), toDouble(mesh.positions[t[2]])};
-}
-
-Double3 doubleArea(const Corners& p) { return cross(p[1] - p[0], p[2] - p[0]); }
 
 std::vector<uint32_t> componentRoots(const Mesh& mesh, const MeshTopology& topology) {
     std::vector<uint32_t> parent(mesh.triangles.size());

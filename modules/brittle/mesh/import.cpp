@@ -16,8 +16,7 @@ namespace {
 
 constexpr uintmax_t kMaxFileBytes = uintmax_t{4} << 30;
 
-std::string lowerCaseEnding(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
+std::string lowerCase(std::string ending) {
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return ending;
@@ -42,8 +41,7 @@ engine::Result<std::string> readBytes(const std::filesystem::path& path, uintmax
 }
 
 // ---- assimp ---------------------------------------------------------------------------------------------------------------
-// It aborts on some broken files and Debian's build has no handler to install for that; others crash it or send it round in
-// circles. So it runs in a process of its own, which hands the finished mesh over as bytes.
+// Debian's build of it has no handler to install for its assertions. The child hands the finished mesh over as bytes.
 
 // Row-major, in double: a model may lie far from the origin by its node's translation alone.
 struct Transform {
@@ -148,12 +146,20 @@ std::string oneLine(std::string text) {
     return text;
 }
 
-engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path) {
-    Assimp::Importer importer;
-    // No post-processing: its triangulation, for one, asserts on damaged faces.
-    const aiScene* scene = importer.ReadFile(path.string(), 0);
+// No post-processing: its triangulation, for one, asserts on damaged faces.
+engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene) {
     if (!scene) return badInput("cannot be read: " + oneLine(importer.GetErrorString()) + "; export it again");
     return SceneFlattener().run(*scene);
+}
+
+engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path) {
+    Assimp::Importer importer;
+    return flatten(importer, importer.ReadFile(path.string(), 0));
+}
+
+engine::Result<ImportedMesh> readByAssimp(std::string_view bytes, const std::string& ending) {
+    Assimp::Importer importer;
+    return flatten(importer, importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1));
 }
 
 // ---- the way from the child -----------------------------------------------------------------------------------------------
@@ -207,35 +213,66 @@ engine::Result<ImportedMesh> decode(std::string_view bytes) {
     return mesh;
 }
 
-engine::Result<ImportedMesh> importIsolated(const std::filesystem::path& path, uintmax_t size) {
+IsolationLimits limitsFor(uintmax_t size) {
     IsolationLimits limits;
     limits.bytes = (uint64_t{1} << 30) + 400 * uint64_t{size};
-    const auto bytes = runIsolated([&] { return encode(readByAssimp(path)); }, limits);
+    return limits;
+}
+
+template <class Read>
+engine::Result<ImportedMesh> importIsolated(const Read& read, const IsolationLimits& limits) {
+    const auto bytes = runIsolated([&] { return encode(read()); }, limits);
     if (!bytes) return bytes.error();
     return decode(*bytes);
 }
 
-engine::Result<ImportedMesh> importOwn(const std::filesystem::path& path, uintmax_t size,
-                                       engine::Result<ImportedMesh> (*read)(std::string_view)) {
-    auto bytes = readBytes(path, size);
-    if (!bytes) return bytes.error();
-    return read(*bytes);
+using Reader = engine::Result<ImportedMesh> (*)(std::string_view);
+
+// nullptr for endings that are not among them.
+Reader ownReader(const std::string& ending) {
+    static constexpr std::pair<std::string_view, Reader> kReaders[] = {
+        {".obj", readObj}, {".off", readOff}, {".ply", readPly}, {".stl", readStl}};
+    for (const auto& [known, reader] : kReaders)
+        if (ending == known) return reader;
+    return nullptr;
+}
+
+engine::Result<void> checkEnding(const std::string& ending) {
+    for (const char* known : {".glb", ".gltf", ".fbx", ".dae"})
+        if (ending == known) return {};
+    if (ownReader(ending)) return {};
+    return badInput("a format that is not read; use OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE");
 }
 
 engine::Result<ImportedMesh> importUnnamed(const std::filesystem::path& path) {
     const auto size = fileSize(path);
     if (!size) return size.error();
-    const std::string ending = lowerCaseEnding(path);
-    if (ending == ".obj") return importOwn(path, *size, readObj);
-    if (ending == ".off") return importOwn(path, *size, readOff);
-    if (ending == ".ply") return importOwn(path, *size, readPly);
-    if (ending == ".stl") return importOwn(path, *size, readStl);
-    for (const char* known : {".glb", ".gltf", ".fbx", ".dae"})
-        if (ending == known) return importIsolated(path, *size);
-    return badInput("a format that is not read; use OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE");
+    const std::string ending = lowerCase(path.extension().string());
+    if (auto known = checkEnding(ending); !known) return known.error();
+    const Reader reader = ownReader(ending);
+    if (!reader) return importIsolated([&] { return readByAssimp(path); }, limitsFor(*size));
+    const auto bytes = readBytes(path, *size);
+    if (!bytes) return bytes.error();
+    return reader(*bytes);
 }
 
 } // namespace
+
+engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending, const IsolationLimits& limits) {
+    const std::string lower = lowerCase(std::string(ending));
+    if (auto known = checkEnding(lower); !known) return known.error();
+    if (bytes.empty()) return badInput("the file is empty");
+    try {
+        const Reader reader = ownReader(lower);
+        return reader ? reader(bytes) : importIsolated([&] { return readByAssimp(bytes, lower); }, limits);
+    } catch (const std::exception&) {
+        return badInput("cannot be read; too large");
+    }
+}
+
+engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending) {
+    return importMesh(bytes, ending, limitsFor(bytes.size()));
+}
 
 engine::Result<ImportedMesh> importMesh(const std::filesystem::path& path) {
     try {

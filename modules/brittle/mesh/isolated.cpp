@@ -11,6 +11,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+// gcc tells by a macro of its own, clang by __has_feature, which gcc 12 does not know.
+#if defined(__SANITIZE_ADDRESS__)
+#define BRITTLE_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#define BRITTLE_ADDRESS_SANITIZER __has_feature(address_sanitizer)
+#else
+#define BRITTLE_ADDRESS_SANITIZER 0
+#endif
+
 namespace brittle {
 namespace {
 
@@ -36,7 +45,7 @@ void limitMyself(const IsolationLimits& limits) {
     setrlimit(RLIMIT_CORE, &no_core);
     const rlimit time = {limits.seconds, limits.seconds};
     setrlimit(RLIMIT_CPU, &time);
-#ifndef __SANITIZE_ADDRESS__ // reserves terabytes of addresses for itself
+#if !BRITTLE_ADDRESS_SANITIZER // which reserves terabytes of addresses for itself
     const rlimit memory = {addressSpaceInUse() + limits.bytes, addressSpaceInUse() + limits.bytes};
     setrlimit(RLIMIT_AS, &memory);
 #endif

@@ -1,7 +1,7 @@
 #include "modules/brittle/mesh/normals.h"
 
 #include "modules/brittle/mesh/topology.h"
-#include "modules/brittle/mesh/vector_math.h"
+#include "modules/brittle/mesh/triangle_shape.h"
 
 #include <algorithm>
 #include <numeric>
@@ -11,15 +11,10 @@ namespace {
 
 constexpr double kCreaseCosine = 0.76604444; // 40 degrees
 
-std::array<Double3, 3> cornersOf(const Mesh& mesh, size_t triangle) {
-    const Index3& t = mesh.triangles[triangle];
-    return {toDouble(mesh.positions[t[0]]), toDouble(mesh.positions[t[1]]), toDouble(mesh.positions[t[2]])};
-}
-
 // Zero where a triangle has no area.
-Double3 faceNormal(const std::array<Double3, 3>& p) { return normalized(cross(p[1] - p[0], p[2] - p[0]), {0, 0, 0}); }
+Double3 faceNormal(const Corners& p) { return normalized(cross(p[1] - p[0], p[2] - p[0]), {0, 0, 0}); }
 
-double angleAt(const std::array<Double3, 3>& p, size_t k) {
+double angleAt(const Corners& p, size_t k) {
     const Double3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
     return std::atan2(length(cross(a, b)), dot(a, b));
 }

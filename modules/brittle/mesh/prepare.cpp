@@ -157,17 +157,22 @@ void cleanUvs(Mesh& mesh) {
 
 } // namespace
 
-engine::Result<PreparedMesh> prepareMesh(const ImportedMesh& imported) {
+engine::Result<WeldedMesh> weldMesh(const ImportedMesh& imported) {
     if (imported.triangles.empty()) return badMesh("no triangles in the model");
     const std::vector<char> used = usedVertices(imported);
     const auto box = boxOfUsed(imported, used);
     if (!box) return box.error();
-    PreparedMesh prepared;
+    WeldedMesh welded;
+    welded.mesh.center = 0.5 * (box->lower + box->upper);
+    addTriangles(imported, weld(imported, used, welded.mesh, welded.notes), welded.mesh, welded.notes);
+    if (welded.mesh.triangles.empty()) return badMesh("every triangle of the model has collapsed to a line or point");
+    return welded;
+}
+
+PreparedMesh finishMesh(WeldedMesh welded) {
+    PreparedMesh prepared{std::move(welded.mesh), {}, welded.notes};
     Mesh& mesh = prepared.mesh;
-    mesh.center = 0.5 * (box->lower + box->upper);
-    addTriangles(imported, weld(imported, used, mesh, prepared.notes), mesh, prepared.notes);
-    if (prepared.notes.collapsed > 0) dropUnusedPositions(mesh);
-    if (mesh.triangles.empty()) return badMesh("every triangle of the model has collapsed to a line or point");
+    dropUnusedPositions(mesh);
     prepared.notes.turned_inside_out = measureMesh(mesh).volume < 0;
     if (prepared.notes.turned_inside_out) turnInsideOut(mesh);
     pointNormalsOutward(mesh);
@@ -175,6 +180,12 @@ engine::Result<PreparedMesh> prepareMesh(const ImportedMesh& imported) {
     prepared.topology = buildTopology(mesh);
     completeNormals(mesh, prepared.topology);
     return prepared;
+}
+
+engine::Result<PreparedMesh> prepareMesh(const ImportedMesh& imported) {
+    auto welded = weldMesh(imported);
+    if (!welded) return welded.error();
+    return finishMesh(std::move(*welded));
 }
 
 } // namespace brittle

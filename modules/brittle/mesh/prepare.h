@@ -21,7 +21,19 @@ struct PreparedMesh {
     PrepareNotes notes;
 };
 
-// Moves the box's center to the origin, joins vertices at the same place, drops triangles that have collapsed, turns an
+// The first half of prepareMesh: triangles that share corners, in the file's order and facing as in the file. Normals are the
+// file's, zero where it has none.
+struct WeldedMesh {
+    Mesh mesh;
+    PrepareNotes notes;
+};
+engine::Result<WeldedMesh> weldMesh(const ImportedMesh& imported);
+
+// The second half: leaves out vertices that no triangle uses, turns an inside-out mesh and completes normals and topology.
+// There must be a triangle.
+PreparedMesh finishMesh(WeldedMesh welded);
+
+// Both. Moves the box's center to the origin, joins vertices at the same place, drops triangles that have collapsed, turns an
 // inside-out mesh the right way round and completes the normals. Whether the result is closed is for checkMesh to say.
 // BadInput where coordinates are not finite, or so large or small that floats cannot work with them.
 engine::Result<PreparedMesh> prepareMesh(const ImportedMesh& imported);

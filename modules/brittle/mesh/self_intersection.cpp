@@ -19,11 +19,6 @@ double overlapAlong(const Double3& axis, const Corners& a, const Corners& b, dou
 
 std::array<Double3, 3> edgesOf(const Corners& p) { return {p[1] - p[0], p[2] - p[1], p[0] - p[2]}; }
 
-Corners cornersOf(const Mesh& mesh, uint32_t triangle) {
-    const Index3& t = mesh.triangles[triangle];
-    return {toDouble(mesh.positions[t[0]]), toDouble(mesh.positions[t[1]]), toDouble(mesh.positions[t[2]])};
-}
-
 uint32_t sharedCorners(const Index3& a, const Index3& b) {
     uint32_t shared = 0;
     for (const uint32_t v : a)
@@ -55,16 +50,23 @@ double penetrationDepth(const Corners& a, const Corners& b, double floor) {
 
 SelfIntersection findSelfIntersections(const Mesh& mesh, const TriangleTree& tree, double diagonal) {
     SelfIntersection found;
+    uint64_t tests = 0;
     tree.forEachPair([&](uint32_t s, uint32_t t) {
+        found.gave_up = ++tests > kMaxPairTests;
         // Neighbors across an edge have their hinge in common; however they fold, they do not pass through each other.
-        if (sharedCorners(mesh.triangles[s], mesh.triangles[t]) >= 2) return true;
+        if (sharedCorners(mesh.triangles[s], mesh.triangles[t]) >= 2) return !found.gave_up;
         const Corners a = cornersOf(mesh, s), b = cornersOf(mesh, t);
         const double depth = penetrationDepth(a, b, kNoiseDepth * diagonal);
-        if (depth == 0) return true;
-        ++(depth < kTouchDepth * diagonal ? found.touching_pairs : found.crossing_pairs);
-        if (depth > found.deepest.depth) found.deepest = {s, t, depth, (1.0 / 6) * (a[0] + a[1] + a[2] + b[0] + b[1] + b[2])};
-        return found.crossing_pairs < kMaxCrossings;
+        if (depth == 0) return !found.gave_up;
+        const Crossing crossing{s, t, depth, 0.5 * (middleOf(a) + middleOf(b))};
+        if (depth > found.deepest.depth) found.deepest = crossing;
+        if (depth < kTouchDepth * diagonal)
+            ++found.touching_pairs;
+        else
+            found.crossings.push_back(crossing);
+        return found.crossings.size() < kMaxCrossings && !found.gave_up;
     });
+    found.crossing_pairs = static_cast<uint32_t>(found.crossings.size());
     return found;
 }
 

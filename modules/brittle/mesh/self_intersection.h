@@ -6,6 +6,7 @@
 // overlap along itself, and what doubles round away is ten digits below the depths that matter.
 #pragma once
 
+#include "modules/brittle/mesh/triangle_shape.h"
 #include "modules/brittle/mesh/triangle_tree.h"
 
 namespace brittle {
@@ -20,14 +21,16 @@ struct Crossing {
 };
 
 struct SelfIntersection {
-    uint32_t crossing_pairs = 0; // counting stops at kMaxCrossings
-    uint32_t touching_pairs = 0; // cross by less than kTouchDepth: rounding, not a fault
-    Crossing deepest;            // of all, also those that touch
+    uint32_t crossing_pairs = 0;     // counting stops at kMaxCrossings
+    uint32_t touching_pairs = 0;     // cross by less than kTouchDepth: rounding, not a fault
+    Crossing deepest;                // of all, also those that touch
+    std::vector<Crossing> crossings; // the crossing pairs
+    bool gave_up = false;            // after kMaxPairTests pairs of triangles whose boxes touch
 };
 
 constexpr uint32_t kMaxCrossings = 10'000;
-
-using Corners = std::array<Double3, 3>;
+// What is tested is linear in the size of a surface that has room; a heap of triangles in one place must not take for ever.
+constexpr uint64_t kMaxPairTests = 500'000'000;
 
 // 0 where the triangles do not cross. What is no deeper than `floor` counts as 0 too and is found sooner.
 double penetrationDepth(const Corners& a, const Corners& b, double floor = 0);

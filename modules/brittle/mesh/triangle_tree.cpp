@@ -24,10 +24,21 @@ bool TriangleTree::Bounds::isMetBy(const Double3& origin, const Double3& inverse
     return enter <= leave * (1 + 1e-12) + 1e-300;
 }
 
-TriangleTree::TriangleTree(const Mesh& mesh) : bounds_(mesh.triangles.size()), order_(mesh.triangles.size()) {
-    for (size_t t = 0; t < bounds_.size(); ++t)
+namespace {
+
+std::vector<TriangleTree::Bounds> boundsOfTriangles(const Mesh& mesh) {
+    std::vector<TriangleTree::Bounds> bounds(mesh.triangles.size());
+    for (size_t t = 0; t < bounds.size(); ++t)
         for (const uint32_t v : mesh.triangles[t])
-            bounds_[t].grow({mesh.positions[v], mesh.positions[v]});
+            bounds[t].grow({mesh.positions[v], mesh.positions[v]});
+    return bounds;
+}
+
+} // namespace
+
+TriangleTree::TriangleTree(const Mesh& mesh) : TriangleTree(boundsOfTriangles(mesh)) {}
+
+TriangleTree::TriangleTree(std::vector<Bounds> bounds) : bounds_(std::move(bounds)), order_(bounds_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     nodes_.reserve(bounds_.size() + 1);
     build(0, static_cast<uint32_t>(order_.size()));

@@ -9,7 +9,16 @@ namespace brittle {
 
 class TriangleTree {
 public:
+    struct Bounds { // floats like the positions, so exact
+        Float3 lower = {3e38f, 3e38f, 3e38f}, upper = {-3e38f, -3e38f, -3e38f};
+        void grow(const Bounds& other);
+        bool touches(const Bounds& other) const;
+        bool isMetBy(const Double3& origin, const Double3& inverse_direction) const;
+    };
+
     explicit TriangleTree(const Mesh& mesh);
+    // Over boxes of anything else, which then stands for the triangles.
+    explicit TriangleTree(std::vector<Bounds> bounds);
 
     // Calls visit(a, b), a < b, once for every pair whose boxes touch; stops as soon as visit returns false.
     template <class Visit>
@@ -20,12 +29,6 @@ public:
     void forEachAlong(const Double3& origin, const Double3& direction, const Visit& visit) const;
 
 private:
-    struct Bounds { // floats like the positions, so exact
-        Float3 lower = {3e38f, 3e38f, 3e38f}, upper = {-3e38f, -3e38f, -3e38f};
-        void grow(const Bounds& other);
-        bool touches(const Bounds& other) const;
-        bool isMetBy(const Double3& origin, const Double3& inverse_direction) const;
-    };
     struct Node {
         Bounds bounds;
         uint32_t first = 0, count = 0; // triangles in order_, of leaves

@@ -1,0 +1,138 @@
+#include "modules/brittle/mesh/repair/repair.h"
+
+#include "modules/brittle/mesh/check.h"
+#include "modules/brittle/mesh/format.h"
+#include "modules/brittle/mesh/measures.h"
+#include "modules/brittle/mesh/repair/doubles.h"
+#include "modules/brittle/mesh/repair/hole_filling.h"
+#include "modules/brittle/mesh/repair/mesh_edit.h"
+#include "modules/brittle/mesh/repair/orientation.h"
+#include "modules/brittle/mesh/repair/seams.h"
+#include "modules/brittle/mesh/topology.h"
+#include "modules/brittle/mesh/triangle_shape.h"
+
+namespace brittle {
+namespace {
+
+engine::Error refuse(const std::string& message) { return {engine::ErrorCode::BadInput, "cannot be mended: " + message}; }
+
+class Repair {
+public:
+    explicit Repair(WeldedMesh welded)
+        : welded_(std::move(welded)), mesh_(welded_.mesh), diagonal_(measureMesh(mesh_).diagonal) {}
+    engine::Result<RepairedMesh> run();
+
+private:
+    void mendSeams();
+    engine::Result<void> makeNeighborsAgree();
+    engine::Result<void> closeHoles();
+    void turnPartsOutward();
+    void note(const std::vector<Double3>& where, std::vector<Double3>& notes) const {
+        for (const Double3& place : where)
+            notes.push_back(mesh_.center + place);
+    }
+    bool hasOddEdges() const;
+
+    WeldedMesh welded_;
+    Mesh& mesh_;
+    double diagonal_;
+    RepairNotes notes_;
+};
+
+engine::Result<RepairedMesh> Repair::run() {
+    mendSeams();
+    note(dropDoubles(mesh_), notes_.dropped_doubles);
+    if (mesh_.triangles.empty()) return refuse("nothing is left of it without doubled faces; give it a thickness");
+    if (auto agree = makeNeighborsAgree(); !agree) return agree.error();
+    if (auto closed = closeHoles(); !closed) return closed.error();
+    if (!hasOddEdges()) turnPartsOutward();
+    RepairedMesh repaired{finishMesh(std::move(welded_)), std::move(notes_)};
+    const auto report = checkMesh(repaired.model.mesh, repaired.model.topology);
+    if (!report) return refuse(report.error().message);
+    return repaired;
+}
+
+void Repair::mendSeams() {
+    note(joinSeams(mesh_, diagonal_), notes_.joined_vertices);
+    note(dropLooseFlat(mesh_), notes_.dropped_flat);
+    note(splitJunctions(mesh_, diagonal_), notes_.split_edges);
+}
+
+engine::Result<void> Repair::makeNeighborsAgree() {
+    const MeshTopology topology = buildTopology(mesh_);
+    const EdgeUses uses(topology);
+    const Orientation found = findOrientation(mesh_, uses);
+    if (!found.torn.empty()) {
+        const auto& [a, b] = topology.edges[found.torn.front()];
+        return refuse("the surface has one side only, like a Moebius strip, first seen at " +
+                      formatPoint(mesh_.center + middleOfEdge(mesh_, a, b)) + "; cut it there and close both sides");
+    }
+    std::vector<Double3> turned;
+    for (uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!found.turn[t]) continue;
+        turnTriangle(mesh_, t);
+        turned.push_back(middleOf(cornersOf(mesh_, t)));
+    }
+    note(turned, notes_.turned_triangles);
+    return {};
+}
+
+engine::Result<void> Repair::closeHoles() {
+    const HoleFilling filling = fillHoles(mesh_, diagonal_);
+    for (RepairNotes::Hole hole : filling.closed) {
+        hole.where = mesh_.center + hole.where;
+        notes_.closed_holes.push_back(hole);
+    }
+    if (filling.left.empty()) return {};
+    const auto& [hole, why] = filling.left.front();
+    return refuse(formatCount(filling.left.size(), "hole") + " left open; the first, of " + formatCount(hole.edges, "edge") +
+                  ", " + formatNumber(hole.diameter) + " across around " + formatPoint(mesh_.center + hole.where) + ", " + why +
+                  "; close it in a modeling program");
+}
+
+// Where an odd number of triangles meets there is no inside.
+bool Repair::hasOddEdges() const {
+    const MeshTopology topology = buildTopology(mesh_);
+    const EdgeUses uses(topology);
+    for (uint32_t edge = 0; edge < uses.edgeCount(); ++edge)
+        if (uses.along(edge).size() % 2 != 0) return true;
+    return false;
+}
+
+void Repair::turnPartsOutward() {
+    for (const TurnedPart& part : turnOutward(mesh_))
+        (part.is_hollow ? notes_.turned_hollows : notes_.turned_parts).push_back(mesh_.center + part.where);
+}
+
+void addText(std::string& line, size_t count, const Double3& first, const char* one, const char* many, const char* done) {
+    line += (line.empty() ? "" : ", ") + formatCount(count, one, many) + " " + done + (count == 1 ? " at " : ", first at ") +
+            formatPoint(first);
+}
+
+} // namespace
+
+std::string RepairNotes::text() const {
+    std::string line;
+    const auto add = [&](const std::vector<Double3>& where, const char* one, const char* many, const char* done) {
+        if (!where.empty()) addText(line, where.size(), where.front(), one, many, done);
+    };
+    add(joined_vertices, "vertex", "vertices", "joined to the one beside it");
+    add(dropped_flat, "triangle without area", "triangles without area", "dropped");
+    add(split_edges, "edge", "edges", "split where others end on it");
+    add(dropped_doubles, "doubled triangle", "doubled triangles", "dropped");
+    add(turned_triangles, "triangle", "triangles", "turned over");
+    if (!closed_holes.empty()) addText(line, closed_holes.size(), closed_holes.front().where, "hole", "holes", "closed");
+    add(turned_parts, "part", "parts", "turned outward");
+    add(turned_hollows, "part inside another", "parts inside another", "turned into a hollow");
+    return line;
+}
+
+engine::Result<RepairedMesh> repairMesh(const ImportedMesh& imported) {
+    auto welded = weldMesh(imported);
+    if (!welded) return welded.error();
+    PreparedMesh as_it_is = finishMesh(*welded);
+    if (inspectMesh(as_it_is.mesh, as_it_is.topology).isSound()) return RepairedMesh{std::move(as_it_is), {}};
+    return Repair(std::move(*welded)).run();
+}
+
+} // namespace brittle
