@@ -204,6 +204,67 @@ TEST_F(Cli, OddButSoundFilesAreNotRefused) {
     }
 }
 
+constexpr const char* kOpenBox = "OFF\n8 10 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n"
+                                 "3 0 2 1\n3 0 3 2\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n";
+
+TEST_F(Cli, DoctorSaysWhereEverythingIs) {
+    std::ofstream(path("box.off")) << kOpenBox;
+    const Outcome text = runProgram("brittle", {"doctor", path("box.off")});
+    EXPECT_EQ(text.exit_code, 2);
+    EXPECT_NE(text.out.find("4 edges, 8 around, 2.82843 across, at (1, 1, 2)"), std::string::npos) << text.out;
+    EXPECT_NE(text.err.find("or try --repair"), std::string::npos) << text.err;
+    const Outcome run = runProgram("brittle", {"doctor", path("box.off"), "--json"});
+    EXPECT_EQ(run.exit_code, 2);
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    EXPECT_EQ(report["sound"], false);
+    for (const char* key :
+         {"problems", "vertices", "triangles", "volume", "area", "diagonal", "center", "notes", "edges", "crossings", "slivers",
+          "nonmanifold_edges_at", "nonmanifold_vertices_at", "inconsistent_edges_at", "duplicate_triangles_at"})
+        EXPECT_TRUE(report.contains(key)) << key;
+    ASSERT_EQ(report["holes"].size(), 1u);
+    EXPECT_EQ(report["holes"][0]["edges"], 4);
+    EXPECT_EQ(report["holes"][0]["where"], (std::vector<double>{1, 1, 2}));
+    ASSERT_EQ(report["parts"].size(), 1u);
+    EXPECT_EQ(report["parts"][0]["genus"], 0);
+    EXPECT_EQ(report["parts"][0]["rims"], 1);
+    EXPECT_FALSE(report.contains("mended"));
+}
+
+TEST_F(Cli, DoctorMendsAndWritesTheMendedModel) {
+    std::ofstream(path("box.off")) << kOpenBox;
+    for (const char* name : {"mended.obj", "mended.off", "mended.ply"}) {
+        const Outcome run = runProgram("brittle", {"doctor", path("box.off"), "--repair", "--json", "-o", path(name)});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err, "brittle: " + path("box.off") + ": mended: 1 hole closed at (1, 1, 2)\n");
+        const nlohmann::json report = nlohmann::json::parse(run.out);
+        EXPECT_EQ(report["sound"], true);
+        EXPECT_EQ(report["mended"]["closed_holes"]["count"], 1);
+        EXPECT_EQ(report["mended"]["closed_holes"]["holes"][0]["where"], (std::vector<double>{1, 1, 2}));
+        const Outcome again = runProgram("brittle", {"doctor", path(name), "--json"});
+        EXPECT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_NEAR(nlohmann::json::parse(again.out)["volume"].get<double>(), 8, 1e-6);
+    }
+}
+
+TEST_F(Cli, DoctorWritesNothingItShouldNot) {
+    std::ofstream(path("box.off")) << kOpenBox;
+    std::ofstream(path("one.off")) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const std::vector<std::vector<std::string>> runs = {
+        {path("box.off"), "-o", path("a.obj")},                         // not asked to mend
+        {path("box.off"), "--repair", "-o", path("box.off")},           // its input
+        {path("box.off"), "--repair", "-o", path("a.stl")},             // a format that is not written
+        {path("box.off"), "--repair", "-o", path("no/such/place.obj")}, // a place where nothing can be
+        {path("one.off"), "--repair", "-o", path("a.obj")}};            // cannot be mended
+    for (std::vector<std::string> arguments : runs) {
+        arguments.insert(arguments.begin(), "doctor");
+        const Outcome run = runProgram("brittle", arguments);
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_EQ(fileBytes(path("box.off")), kOpenBox);
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 2);
+    }
+}
+
 TEST_F(Cli, DoctorTellsSoundFromBroken) {
     EXPECT_EQ(runProgram("brittle", {"doctor", "builtin:ring"}).exit_code, 0);
     SKIP_WITHOUT_MESHES();

@@ -36,7 +36,9 @@ engine::Result<std::optional<brittle::OutputFile>> openOutput(const DoctorOption
     return std::optional<brittle::OutputFile>(std::move(*file));
 }
 
-void print(const DoctorOptions& options, const brittle::PreparedMesh& model, const brittle::RepairNotes* mended) {
+// Examines the model first.
+brittle::MeshReport print(const DoctorOptions& options, const brittle::PreparedMesh& model,
+                          const brittle::RepairNotes* mended) {
     showProgress("examining " + options.model);
     const DoctorReport report{options.model, &model, brittle::diagnoseMesh(model.mesh, model.topology), mended};
     clearProgress();
@@ -44,6 +46,7 @@ void print(const DoctorOptions& options, const brittle::PreparedMesh& model, con
         printReportJson(report);
     else
         printReport(report);
+    return report.diagnosis.report;
 }
 
 engine::Result<void> write(const DoctorOptions& options, const brittle::Mesh& mesh, brittle::OutputFile& file) {
@@ -59,8 +62,7 @@ engine::Result<void> examine(const DoctorOptions& options, const brittle::Import
     };
     const auto model = brittle::prepareMesh(imported);
     if (!model) return named(model.error().message);
-    print(options, *model, nullptr);
-    const brittle::MeshReport report = brittle::inspectMesh(model->mesh, model->topology);
+    const brittle::MeshReport report = print(options, *model, nullptr);
     if (report.isSound()) return {};
     return named(report.problems.front() + adviceToRepair(report));
 }

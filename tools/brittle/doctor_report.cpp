@@ -84,9 +84,10 @@ void printFaults(const MeshDiagnosis& found) {
     places("edges", "where the surface turns over", found.inconsistent_edges);
     places("vertices", "where sheets touch that share no edge there", found.nonmanifold_vertices);
     places("triangles", "doubled", found.duplicates);
-    if (found.report.flat_triangles > 0) row("triangles", std::to_string(found.report.flat_triangles) + " without area");
     rows("slivers", found.slivers, [](const MeshDiagnosis::Sliver& sliver) {
-        return formatNumber(sliver.aspect) + " times as long as high, at " + formatPoint(sliver.where);
+        const bool is_flat = !std::isfinite(sliver.aspect);
+        return (is_flat ? "no area" : formatNumber(sliver.aspect) + " times as long as high") + ", at " +
+               formatPoint(sliver.where);
     });
     rows("crossings", found.crossings, [](const MeshDiagnosis::Crossing& crossing) {
         return formatNumber(crossing.depth) + " deep, at " + formatPoint(crossing.where);

@@ -126,9 +126,12 @@ void Diagnostician::nameGenus() {
         const int64_t euler = int64_t{part.vertices} - part.edges + part.triangles + part.rims;
         if (!part.is_one_sided && euler <= 2 && euler % 2 == 0) part.genus = static_cast<uint32_t>((2 - euler) / 2);
     }
-    // A sheet that ends at an edge of others branches: no formula holds for it.
-    for (uint32_t h = 0; h < 3 * mesh_.triangles.size(); ++h)
-        if (uses_.along(uses_.edgeOf(h)).size() > 2 && topology_.half_edge_mates[h] == kNoMate) partOf(h).genus.reset();
+    // A sheet that ends at an edge of others, or goes on in another part there, branches: no formula holds for it.
+    for (uint32_t h = 0; h < 3 * mesh_.triangles.size(); ++h) {
+        const uint32_t mate = topology_.half_edge_mates[h];
+        const bool goes_on = mate != kNoMate && orientation_.part[mate / 3] == orientation_.part[h / 3];
+        if (uses_.along(uses_.edgeOf(h)).size() > 2 && !goes_on) partOf(h).genus.reset();
+    }
 }
 
 void Diagnostician::listEdges() {
@@ -179,6 +182,8 @@ void Diagnostician::listDuplicates() {
 void Diagnostician::listCrossings() {
     for (const Crossing& crossing : found_.report.self_intersection.crossings)
         found_.crossings.push_back({crossing.depth, place(crossing.where), {crossing.first, crossing.second}});
+    std::stable_sort(found_.crossings.begin(), found_.crossings.end(),
+                     [](const auto& a, const auto& b) { return a.depth > b.depth; });
 }
 
 } // namespace

@@ -40,7 +40,7 @@ struct MeshDiagnosis {
     MeshReport report;
     std::vector<Part> parts;
     std::vector<Hole> holes;
-    std::vector<Crossing> crossings;
+    std::vector<Crossing> crossings;           // the deepest first
     std::vector<Sliver> slivers;               // the worst first; those without area among them
     std::vector<Double3> nonmanifold_edges;    // more than two triangles, also where they pair up
     std::vector<Double3> nonmanifold_vertices; // where sheets meet that share no edge there

@@ -20,7 +20,7 @@ const char* MeshBuilder::addPolygon(std::span<const PolygonCorner> corners) {
     for (const PolygonCorner& corner : corners_)
         outline_.push_back(mesh_.positions[corner.position]);
     const std::vector<Index3> triangles = triangulatePolygon(outline_);
-    if (triangles.empty()) return "a polygon crosses itself; triangulate it before export";
+    if (triangles.empty()) return "a polygon crosses itself or winds too much; triangulate it before export";
     for (const Index3& t : triangles)
         addTriangle(corners_[t[0]], corners_[t[1]], corners_[t[2]]);
     return nullptr;

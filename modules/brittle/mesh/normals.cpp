@@ -22,8 +22,8 @@ double angleAt(const Corners& p, size_t k) {
 // Sets of corners that share a normal: union-find over the corners, joined across smooth edges.
 class SmoothGroups {
 public:
-    SmoothGroups(const Mesh& mesh, const MeshTopology& topology, const std::vector<Double3>& face_normals)
-        : parent_(3 * mesh.triangles.size()) {
+    SmoothGroups(const Mesh& mesh, const MeshTopology& topology, const std::vector<Double3>& face_normals) {
+        parent_.resize(mesh.corner_normals.size());
         std::iota(parent_.begin(), parent_.end(), 0u);
         for (uint32_t h = 0; h < parent_.size(); ++h) {
             const uint32_t mate = topology.half_edge_mates[h];

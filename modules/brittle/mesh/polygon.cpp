@@ -36,6 +36,10 @@ std::vector<Point2> flatten(std::span<const Double3> outline, const Double3& nor
     return points;
 }
 
+// Tests of a corner against an ear, for every corner of the outline. Honest outlines need a few thousand at the worst; one that
+// is made to need the cube of its corners would take for hours.
+constexpr uint64_t kMaxTestsPerCorner = 50'000;
+
 // How choosy the clipper is. Flat ears (a corner on the straight line between its neighbors) and ears with a corner right on
 // their border are left for when there is nothing better to cut.
 enum class Pick { Clear, Anything };
@@ -48,7 +52,7 @@ public:
 
 private:
     double turnAt(uint32_t k) const { return turn(points_[before_[k]], points_[k], points_[after_[k]]); }
-    bool isEar(uint32_t k, Pick pick) const;
+    bool isEar(uint32_t k, Pick pick);
     bool isInEar(const Point2& p, const std::array<Point2, 3>& ear, double margin) const;
     bool clipNext(Pick pick);
     void clip(uint32_t k);
@@ -59,13 +63,14 @@ private:
     std::vector<char> is_clipped_;
     std::vector<Index3> triangles_;
     double rounding_ = 0; // twice an area that is as good as none
+    uint64_t tests_left_;
     uint32_t current_ = 1;
     size_t left_;
 };
 
 EarClipper::EarClipper(std::vector<Point2> points)
     : points_(std::move(points)), before_(points_.size()), after_(points_.size()), is_clipped_(points_.size(), 0),
-      left_(points_.size()) {
+      tests_left_(kMaxTestsPerCorner * points_.size()), left_(points_.size()) {
     const auto count = static_cast<uint32_t>(points_.size());
     double size = 0;
     for (uint32_t k = 0; k < count; ++k) {
@@ -95,9 +100,10 @@ bool EarClipper::clipNext(Pick pick) {
     return false;
 }
 
-bool EarClipper::isEar(uint32_t k, Pick pick) const {
+bool EarClipper::isEar(uint32_t k, Pick pick) {
     const double margin = pick == Pick::Clear ? -rounding_ : rounding_;
-    if (turnAt(k) <= -margin) return false;
+    if (turnAt(k) <= -margin || tests_left_ < reflex_.size()) return false;
+    tests_left_ -= reflex_.size();
     const std::array<Point2, 3> ear = {points_[before_[k]], points_[k], points_[after_[k]]};
     return std::none_of(reflex_.begin(), reflex_.end(), [&](uint32_t r) {
         return !is_clipped_[r] && r != before_[k] && r != k && r != after_[k] && isInEar(points_[r], ear, margin);

@@ -8,7 +8,8 @@
 namespace brittle {
 
 // Triangles of indices into the outline, which runs once around the polygon and need not be quite flat. A convex outline
-// gives the fan from its first corner. Empty where the outline crosses itself and no triangulation exists.
+// gives the fan from its first corner. Empty where the outline crosses itself and no triangulation exists, or finding one
+// would take too long.
 std::vector<Index3> triangulatePolygon(std::span<const Double3> outline);
 
 } // namespace brittle

@@ -239,7 +239,8 @@ const char* PlyReader::finishFace() {
     if (indices_.empty()) return "a face without vertex indices";
     corners_.clear();
     for (size_t k = 0; k < indices_.size(); ++k) {
-        if (!(indices_[k] >= 0 && indices_[k] < static_cast<double>(attributes_.size())))
+        const bool is_whole = indices_[k] == std::floor(indices_[k]);
+        if (!(is_whole && indices_[k] >= 0 && indices_[k] < static_cast<double>(attributes_.size())))
             return "it refers to a vertex that is not there; the file is damaged, export it again";
         corners_.push_back(attributes_[static_cast<size_t>(indices_[k])]);
         if (uvs_.size() == 2 * indices_.size())

@@ -91,7 +91,7 @@ engine::Result<ImportedMesh> readText(std::string_view bytes) {
 // Binary files may begin with "solid" too: their length is what gives them away.
 engine::Result<ImportedMesh> readStl(std::string_view bytes) {
     const bool is_binary = bytes.size() >= kHeaderBytes && promisedBytes(bytes) == bytes.size();
-    const bool is_text = !is_binary && bytes.starts_with("solid") && !looksBinary(bytes);
+    const bool is_text = !is_binary && withoutMark(bytes).starts_with("solid") && !looksBinary(bytes);
     if (!is_binary && !is_text) {
         if (bytes.size() < kHeaderBytes) return badInput("too short for an STL file; copy or export it again");
         return badInput("its header promises " + std::to_string((promisedBytes(bytes) - kHeaderBytes) / kTriangleBytes) +

@@ -33,7 +33,7 @@ std::string_view Words::next() {
 
 std::optional<double> Words::nextNumber() { return parseNumber(next()); }
 
-TextReader::TextReader(std::string_view text) : rest_(text) {
+TextReader::TextReader(std::string_view text) : rest_(withoutMark(text)) {
     const size_t end = text.find_first_of("\r\n");
     ends_with_cr_ = end != text.npos && text[end] == '\r' && !text.substr(end + 1).starts_with('\n');
 }
