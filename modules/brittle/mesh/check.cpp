@@ -132,8 +132,13 @@ void Inspector::checkCrossings(const TriangleTree& tree) {
 
 void Inspector::checkNesting(const TriangleTree& tree) {
     Double3 first = {0, 0, 0};
+    uint64_t tests = 0;
     for (const Component& component : findComponents(mesh_, topology_)) {
-        if (windingBelow(mesh_, tree, component.largest_triangle, report_.measures.diagonal) == 1) continue;
+        if (tests > kMaxNestingTests) {
+            report_.problems.emplace_back("too many parts behind one another to see which lie inside which; unite them");
+            return;
+        }
+        if (windingBelow(mesh_, tree, component.largest_triangle, report_.measures.diagonal, tests) == 1) continue;
         if (report_.misplaced_components++ == 0) first = midpointOf(component.largest_triangle);
     }
     complain(report_.misplaced_components, "part", first,

@@ -56,10 +56,11 @@ Hit intersect(const Corners& p, const Double3& origin, const Double3& direction)
 }
 
 std::optional<int> windingAlong(const Mesh& mesh, const TriangleTree& tree, const Double3& origin, const Double3& direction,
-                                double nearest) {
+                                double nearest, uint64_t& tests) {
     bool is_clear = true;
     int winding = 0;
     tree.forEachAlong(origin, direction, [&](uint32_t t) {
+        ++tests;
         const Hit hit = intersect(cornersOf(mesh, t), origin, direction);
         if (hit.distance >= 0 && hit.distance < nearest) return; // the surface it starts from, or one that lies on it
         is_clear = is_clear && hit.is_clear;
@@ -91,7 +92,7 @@ std::vector<Component> findComponents(const Mesh& mesh, const MeshTopology& topo
     return components;
 }
 
-int windingBelow(const Mesh& mesh, const TriangleTree& tree, uint32_t triangle, double diagonal) {
+int windingBelow(const Mesh& mesh, const TriangleTree& tree, uint32_t triangle, double diagonal, uint64_t& tests) {
     const double nearest = 1e-7 * diagonal; // two surfaces this near count as one
     const Corners p = cornersOf(mesh, triangle);
     const Double3 normal = normalized(doubleArea(p), {0, 0, 1});
@@ -101,7 +102,7 @@ int windingBelow(const Mesh& mesh, const TriangleTree& tree, uint32_t triangle, 
         const Double3 origin = p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]);
         const Double3 along = normalized(p[1] - p[0], {1, 0, 0}), across = cross(normal, along);
         const Double3 direction = normalized(tilt * along + (0.7 * tilt) * across - normal, {0, 0, -1});
-        if (const auto winding = windingAlong(mesh, tree, origin, direction, nearest)) return *winding;
+        if (const auto winding = windingAlong(mesh, tree, origin, direction, nearest, tests)) return *winding;
     }
     return 1;
 }

@@ -37,9 +37,7 @@ private:
 std::optional<double> parseNumber(std::string_view word);
 
 // Some editors begin a text with a byte order mark.
-inline std::string_view withoutMark(std::string_view text) {
-    return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
+inline std::string_view withoutMark(std::string_view text) { return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text; }
 
 class TextReader {
 public:

@@ -118,10 +118,14 @@ private:
 };
 
 HoleFilling HoleFiller::run() {
+    constexpr uint64_t kMaxWork = 4'000'000'000; // five hundred of the largest, or a million of sixteen edges
     HoleFilling result;
+    uint64_t work = 0;
     for (const BoundaryLoop& loop : findBoundary(mesh_, uses_).loops) {
         const RepairNotes::Hole hole = describe(loop);
         const char* why = whyNot(loop, hole.diameter);
+        if (!why) work += uint64_t{hole.edges} * hole.edges * hole.edges;
+        if (!why && work > kMaxWork) why = "is one too many to be closed in reasonable time";
         if (!why && !fill(loop)) why = "cannot be closed without doubling what is there";
         if (why)
             result.left.push_back({hole, why});

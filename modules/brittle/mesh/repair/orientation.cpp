@@ -153,8 +153,9 @@ std::vector<TurnedPart> turnOutward(Mesh& mesh) {
     const TriangleTree tree(mesh);
     const double diagonal = measureMesh(mesh).diagonal;
     std::vector<char> is_hollow(parts.size(), 0);
-    for (size_t p = 0; p < parts.size(); ++p)
-        is_hollow[p] = windingBelow(mesh, tree, parts[p].largest, diagonal) % 2 == 0;
+    uint64_t tests = 0;
+    for (size_t p = 0; p < parts.size() && tests <= kMaxNestingTests; ++p) // the check refuses what takes longer
+        is_hollow[p] = windingBelow(mesh, tree, parts[p].largest, diagonal, tests) % 2 == 0;
     turnParts(mesh, found, is_hollow);
     std::vector<TurnedPart> turned;
     for (size_t p = 0; p < parts.size(); ++p)
