@@ -164,7 +164,7 @@ std::vector<char> HoleFiller::freeChords(const BoundaryLoop& loop) const {
         for (size_t j = i + 1; j < count; ++j) {
             const bool is_rim = j == i + 1 || (i == 0 && j + 1 == count);
             const Edge chord = edgeBetween(startOf(mesh_, loop.half_edges[i]), startOf(mesh_, loop.half_edges[j]));
-            free[i * count + j] = is_rim || !exists(chord);
+            free[i * count + j] = is_rim || !exists(chord) ? 1 : 0;
         }
     return free;
 }

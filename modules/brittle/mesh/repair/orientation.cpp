@@ -111,7 +111,6 @@ void joinUnbalanced(const Mesh& mesh, const EdgeUses& uses, Orientation& found) 
 struct Part {
     double volume = 0, largest_area = -1;
     uint32_t largest = 0; // triangle
-    bool turned = false;
 };
 
 std::vector<Part> measureParts(const Mesh& mesh, const Orientation& found) {
@@ -145,22 +144,21 @@ Orientation findOrientation(const Mesh& mesh, const EdgeUses& uses) {
 std::vector<TurnedPart> turnOutward(Mesh& mesh) {
     const MeshTopology topology = buildTopology(mesh);
     const Orientation found = findOrientation(mesh, EdgeUses(topology));
-    std::vector<Part> parts = measureParts(mesh, found);
+    const std::vector<Part> parts = measureParts(mesh, found);
     std::vector<char> turn(parts.size(), 0);
     for (size_t p = 0; p < parts.size(); ++p)
-        turn[p] = parts[p].turned = parts[p].volume < 0;
+        turn[p] = parts[p].volume < 0 ? 1 : 0;
     turnParts(mesh, found, turn);
     const TriangleTree tree(mesh);
     const double diagonal = measureMesh(mesh).diagonal;
     std::vector<char> is_hollow(parts.size(), 0);
     uint64_t tests = 0;
     for (size_t p = 0; p < parts.size() && tests <= kMaxNestingTests; ++p) // the check refuses what takes longer
-        is_hollow[p] = windingBelow(mesh, tree, parts[p].largest, diagonal, tests) % 2 == 0;
+        is_hollow[p] = windingBelow(mesh, tree, parts[p].largest, diagonal, tests) % 2 == 0 ? 1 : 0;
     turnParts(mesh, found, is_hollow);
     std::vector<TurnedPart> turned;
     for (size_t p = 0; p < parts.size(); ++p)
-        if (parts[p].turned != (is_hollow[p] != 0))
-            turned.push_back({middleOf(cornersOf(mesh, parts[p].largest)), is_hollow[p] != 0});
+        if (turn[p] != is_hollow[p]) turned.push_back({middleOf(cornersOf(mesh, parts[p].largest)), is_hollow[p] != 0});
     return turned;
 }
 
