@@ -243,6 +243,19 @@ TEST(Repair, LargeHolesAreNotGuessedAt) {
     EXPECT_NE(refusal.find("too large"), std::string::npos) << refusal;
 }
 
+// Closing its rim would make a lens of a leaf.
+TEST(Repair, SheetsAreNotTakenForSolidsWithAHole) {
+    for (const double bend : {0.0, 0.3}) {
+        ImportedMesh leaf;
+        leaf.positions = {{3, 0, 0}, {4, 0, bend}, {4, 1, 0}, {3, 1, bend}};
+        leaf.triangles = {{0, 1, 2}, {0, 2, 3}};
+        leaf.corner_normals.resize(6);
+        leaf.corner_uvs.resize(6);
+        const std::string refusal = refusalOf(makeCube() + leaf);
+        EXPECT_NE(refusal.find("is the rim of a sheet"), std::string::npos) << refusal;
+    }
+}
+
 TEST(Repair, RefusesWhatHasNoInside) {
     // Five triangles in a ring with a half turn.
     ImportedMesh strip;

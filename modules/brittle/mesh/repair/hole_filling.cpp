@@ -2,6 +2,7 @@
 
 #include "modules/brittle/mesh/boundary.h"
 #include "modules/brittle/mesh/repair/mesh_edit.h"
+#include "modules/brittle/mesh/repair/orientation.h"
 #include "modules/brittle/mesh/topology.h"
 #include "modules/brittle/mesh/triangle_shape.h"
 
@@ -98,12 +99,17 @@ void RimTriangulation::collect(size_t i, size_t j, std::vector<Index3>& triangle
 class HoleFiller {
 public:
     HoleFiller(Mesh& mesh, double diagonal)
-        : mesh_(mesh), diagonal_(diagonal), topology_(buildTopology(mesh)), uses_(topology_) {}
+        : mesh_(mesh), diagonal_(diagonal), topology_(buildTopology(mesh)), uses_(topology_),
+          parts_(findOrientation(mesh, uses_)), areas_(parts_.part_count, 0) {
+        for (size_t t = 0; t < mesh.triangles.size(); ++t)
+            areas_[parts_.part[t]] += length(doubleArea(cornersOf(mesh, t)));
+    }
     HoleFilling run();
 
 private:
     const char* whyNot(const BoundaryLoop& loop, double diameter) const;
-    bool fill(const BoundaryLoop& loop);
+    const char* fill(const BoundaryLoop& loop); // says why not, nullptr when done
+    void add(const BoundaryLoop& loop, const std::vector<Index3>& triangles);
     bool exists(const Edge& edge) const {
         return std::binary_search(topology_.edges.begin(), topology_.edges.end(), edge) || added_.contains(edge);
     }
@@ -114,6 +120,8 @@ private:
     double diagonal_;
     const MeshTopology topology_; // before anything was filled
     const EdgeUses uses_;
+    const Orientation parts_;
+    std::vector<double> areas_; // of every part, doubled
     std::set<Edge> added_;
 };
 
@@ -126,7 +134,7 @@ HoleFilling HoleFiller::run() {
         const char* why = whyNot(loop, hole.diameter);
         if (!why) work += uint64_t{hole.edges} * hole.edges * hole.edges;
         if (!why && work > kMaxWork) why = "is one too many to be closed in reasonable time";
-        if (!why && !fill(loop)) why = "cannot be closed without doubling what is there";
+        if (!why) why = fill(loop);
         if (why)
             result.left.push_back({hole, why});
         else
@@ -169,15 +177,27 @@ std::vector<char> HoleFiller::freeChords(const BoundaryLoop& loop) const {
     return free;
 }
 
-bool HoleFiller::fill(const BoundaryLoop& loop) {
+const char* HoleFiller::fill(const BoundaryLoop& loop) {
+    constexpr const char* kDoubling = "cannot be closed without doubling what is there";
     const std::vector<uint32_t>& h = loop.half_edges;
-    if (h.size() == 3 && h[0] / 3 == h[1] / 3 && h[1] / 3 == h[2] / 3) return false; // a triangle on its own
+    if (h.size() == 3 && h[0] / 3 == h[1] / 3 && h[1] / 3 == h[2] / 3) return kDoubling; // a triangle on its own
     Rim rim;
     for (const uint32_t half_edge : h) {
         rim.corners.push_back(toDouble(mesh_.positions[startOf(mesh_, half_edge)]));
         rim.behind.push_back(toDouble(mesh_.positions[startOf(mesh_, previousHalfEdge(half_edge))]));
     }
     const std::vector<Index3> triangles = RimTriangulation(rim, freeChords(loop)).run();
+    if (triangles.empty()) return kDoubling;
+    double area = 0;
+    for (const Index3& t : triangles)
+        area += length(doubleArea({rim.corners[t[0]], rim.corners[t[1]], rim.corners[t[2]]}));
+    if (area > kMaxHoleShare * areas_[parts_.part[h[0] / 3]]) return "is the rim of a sheet, which has no inside";
+    add(loop, triangles);
+    return nullptr;
+}
+
+void HoleFiller::add(const BoundaryLoop& loop, const std::vector<Index3>& triangles) {
+    const std::vector<uint32_t>& h = loop.half_edges;
     for (const Index3& t : triangles) {
         std::array<MeshCorner, 3> corners;
         for (size_t k = 0; k < 3; ++k) {
@@ -187,7 +207,6 @@ bool HoleFiller::fill(const BoundaryLoop& loop) {
         }
         appendTriangle(mesh_, corners[0], corners[1], corners[2]);
     }
-    return !triangles.empty();
 }
 
 } // namespace

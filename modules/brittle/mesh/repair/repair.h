@@ -24,6 +24,8 @@ constexpr double kJunctionWidth = 1e-6;  // a vertex this near to an open edge l
 constexpr size_t kFewHoleEdges = 16;     // a hole of no more edges is closed whatever its size,
 constexpr size_t kMaxHoleEdges = 200;    // one of no more than these
 constexpr double kMaxHoleDiameter = 0.1; // if its box is no larger than this
+constexpr double kMaxHoleShare = 0.75;   // and in any case if its filling has no more of this share of its part's area:
+                                         // what is shallower is a sheet, which has no inside to be closed off
 
 // What was mended, and where (model space).
 struct RepairNotes {
