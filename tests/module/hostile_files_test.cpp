@@ -117,7 +117,7 @@ std::vector<Hostile> hostileFiles() {
         {"OneCornerThrice", ".obj", kCorners + kFaces + "f 1 1 1\n", ""},
         {"CornerTwice", ".obj", kCorners + "f 1 3 2 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", ""},
         {"TooManyCorners", ".obj", zigzag(10'001), "more than 10,000 corners"},
-        {"ThereAndBackAgain", ".obj", zigzag(9'999), "crosses itself|open edges"},
+        {"ThereAndBackAgain", ".obj", zigzag(3'999), "crosses itself|open edges"},
         {"BowTie", ".obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n", "open edges|crosses itself|doubled"},
         // Lines and what they are made of.
         {"CarriageReturns", ".obj", withLineEnds(kCorners + kFaces, "\r\n"), ""},

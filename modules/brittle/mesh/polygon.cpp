@@ -38,7 +38,7 @@ std::vector<Point2> flatten(std::span<const Double3> outline, const Double3& nor
 
 // Tests of a corner against an ear, for every corner of the outline. Honest outlines need a few thousand at the worst; one that
 // is made to need the cube of its corners would take for hours.
-constexpr uint64_t kMaxTestsPerCorner = 50'000;
+constexpr uint64_t kMaxTestsPerCorner = 20'000;
 
 // How choosy the clipper is. Flat ears (a corner on the straight line between its neighbors) and ears with a corner right on
 // their border are left for when there is nothing better to cut.
