@@ -1,4 +1,4 @@
-// How much of the pools every component needs: fragments with their cavities, the rest nothing.
+// How much of the pools every component needs: fragments with their parts, the rest nothing.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -10,23 +10,26 @@ READS(2, uvec4, class_offsets);
 READS(3, uvec2, fates);
 WRITES(4, uvec4, demands);  // fragment, triangles
 WRITES(5, uvec4, shares);   // outer and inner triangles before this component's in its fragment; of the whole fragment
-READS(6, uint, cavities);
+READS(6, uint, parts);       // by owner
+READS(7, uint, part_owners);
+#include "lib/parts_of.glsl"
+#include "lib/part.glsl"
 
 uvec2 sizeOf(uint c) { return class_offsets[component_start[c + 1u]].xy - class_offsets[component_start[c]].xy; }
 
 void main() {
     uint c = flatIndex();
     if (c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u) return;
-    uvec2 fate = fates[c], total = sizeOf(fate.y), before = fate.y != c ? total : uvec2(0u);
-    uint others = min(counts[COUNT_CAVITIES], MOST_TURNS);
-    if (counts[COUNT_CAVITIES] > others) atomicOr(counts[STATUS_BAD_UNION], 1u);
-    for (uint k = 0u; k < others; k++) {
-        uint o = cavities[k];
-        if (o != fate.y && fates[o] == uvec2(FATE_CAVITY, fate.y)) {
-            uvec2 size = sizeOf(o);
-            total += size;
-            before += fate.y != c && o < c ? size : uvec2(0u);
-        }
+    uvec2 fate = fates[c];
+    bool part = isPart(fate.x);
+    uvec2 total = sizeOf(fate.y), before = part ? total : uvec2(0u);
+    uint first = firstPartFrom(fate.y), last = firstPartFrom(fate.y + 1u);
+    if (last - first > MOST_TURNS) atomicOr(counts[STATUS_BAD_UNION], 1u);
+    last = min(last, first + MOST_TURNS);
+    for (uint k = first; k < last; k++) {
+        uvec2 size = sizeOf(parts[k]);
+        total += size;
+        before += part && parts[k] < c ? size : uvec2(0u);
     }
     bool fragment = fate.x == FATE_FRAGMENT && total.x + total.y > 0u;
     demands[c] = fragment ? uvec4(1u, total.x + total.y, 0u, 0u) : uvec4(0u);

@@ -15,10 +15,11 @@ READS(5, uint, face_offsets);
 READS(6, uvec4, segments);
 READS(7, uint, welded);
 READS(8, uint, points);
-WRITES(9, uvec4, loose_caps);   // two slots a segment
+WRITES(9, uint, loose_caps);    // three words a slot; a slot for every segment, and then those of large faces
 WRITES(10, uint, cap_counts);
 WRITES(11, uint, large_faces);
 WRITES(12, uint, huge_faces);
+WRITES(13, uint, cap_slots);    // first slot of each face
 #include "lib/cap_plane.glsl"
 
 ivec2 place[SMALL];
@@ -97,7 +98,10 @@ void main() {
                 failures = SMALL + 1u;
                 break;
             }
-            loose_caps[2u * first + made] = uvec4(name[a], name[corner], name[c], f);
+            uint slot = 3u * (first + made);
+            loose_caps[slot] = name[a];
+            loose_caps[slot + 1u] = name[corner];
+            loose_caps[slot + 2u] = name[c];
             made++;
             next_of[a] = c;
             previous_of[c] = a;
@@ -114,6 +118,7 @@ void main() {
     }
     bool done = simple && (left <= 2u || size <= 2u);
     cap_counts[at] = done ? made : 0u;
+    cap_slots[at] = done ? first : counts[COUNT_SEGMENTS] + atomicAdd(counts[COUNT_NODES], 2u * n); // whoever comes first
     if (!done && n <= LARGE_FACE) large_faces[atomicAdd(counts[COUNT_LARGE_FACES], 1u)] = at;
     if (!done && n > LARGE_FACE) huge_faces[atomicAdd(counts[COUNT_HUGE_FACES], 1u)] = at;
 }

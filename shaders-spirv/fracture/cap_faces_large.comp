@@ -26,12 +26,13 @@ READS(5, uint, face_offsets);
 READS(6, uvec4, segments);
 READS(7, uint, welded);
 READS(8, uint, points);
-WRITES(9, uvec4, loose_caps);
+WRITES(9, uint, loose_caps);
 WRITES(10, uint, cap_counts);
 READS(11, uint, large_faces);
 layout(set = 0, binding = 12, std430) coherent buffer nodes_block { ivec4 nodes[]; }; // x, y, name, state
 layout(set = 0, binding = 13, std430) coherent buffer rings_block { uvec4 rings[]; }; // next, previous, loop, scratch
 layout(set = 0, binding = 14, std430) coherent buffer loops_block { ivec4 loops[]; }; // of a loop's first node: turns left?, rightmost
+READS(15, uint, cap_slots);
 #include "lib/cap_plane.glsl"
 
 #define DEAD 0
@@ -45,13 +46,19 @@ shared uint lane_pick[LANES];
 shared int64_t lane_key[LANES];
 shared uint node_total, alive_total, reflex_total, spike_total, cleared, hole_total, outer_total;
 
-uint base, plane_u, plane_w;
+uint base, slots, plane_u, plane_w;
 
 ivec2 at(uint k) { return nodes[base + k].xy; }
 bool live(uint k) { return nodes[base + k].w != DEAD; }
 uint nextOf(uint k) { return rings[base + k].x; }
 uint previousOf(uint k) { return rings[base + k].y; }
 ivec2 placeOf(uint id) { return ivec2(capCoordinate(id, plane_u), capCoordinate(id, plane_w)); }
+
+void saveCap(uint slot, uint a, uint b, uint c) {
+    loose_caps[3u * slot] = uint(nodes[base + a].z);
+    loose_caps[3u * slot + 1u] = uint(nodes[base + b].z);
+    loose_caps[3u * slot + 2u] = uint(nodes[base + c].z);
+}
 
 void sync() {
     memoryBarrierBuffer();
@@ -331,6 +338,19 @@ void bridgeHoles(uint lane) {
     }
 }
 
+// Outlines may cross themselves by what rounding has moved their corners, or the surface touches itself: two grid steps.
+const int64_t kTouch = int64_t(128);
+
+int64_t reach(ivec2 a, ivec2 b) { return int64_t(abs(b.x - a.x)) + int64_t(abs(b.y - a.y)); }
+
+// Whether x lies left of a b by more than rounding explains.
+bool clearlyLeft(ivec2 a, ivec2 b, ivec2 x) { return signOf(doubleArea(a, b, x) - kTouch * reach(a, b)) > 0; }
+
+// Of corners that only seem to be in the way: an ear, or a tip that is turned over, but for rounding.
+bool isEarButForRounding(ivec2 a, ivec2 b, ivec2 c) { return signOf(doubleArea(a, b, c) + kTouch * reach(a, c)) > 0; }
+
+bool clearlyIn(ivec2 a, ivec2 b, ivec2 c, ivec2 x) { return clearlyLeft(a, b, x) && clearlyLeft(b, c, x) && clearlyLeft(c, a, x); }
+
 bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c) {
     ivec2 x = at(q);
     if (x != a && x != b && x != c) {
@@ -365,11 +385,12 @@ void main() {
         n = 0u;
     }
     CapPlane plane = capPlane(sites[face_cells[f]].xyz, sites[neighbors[f]].xyz);
-    base = 2u * first;
+    slots = cap_slots[index];
+    base = slots - counts[COUNT_SEGMENTS];
     plane_u = plane.u;
     plane_w = plane.w;
     for (uint k = lane; k < 2u * n; k += LANES) {
-        loose_caps[base + k] = uvec4(NO_INDEX);
+        loose_caps[3u * (slots + k)] = NO_INDEX;
         nodes[base + k] = ivec4(0);
     }
     sync();
@@ -414,12 +435,13 @@ void main() {
             ivec2 a = at(p), b = at(k), c = at(s);
             int size = turn(a, b, c);
             bool spikes = spike_total != 0u;
-            bool test = candidate && size > 0 && phase < 2u && budget > 0u && !spikes;
-            bool ear = candidate && (spikes ? isSpike(a, b, c) : size > 0 || (phase >= 1u && size == 0) || phase >= 3u);
+            bool nearly = phase == 2u && isEarButForRounding(a, b, c);
+            bool test = candidate && (size > 0 || nearly) && phase < 3u && budget > 0u && !spikes;
+            bool ear = candidate && (spikes ? isSpike(a, b, c) : size > 0 || nearly || (phase >= 1u && size == 0) || phase >= 4u);
             for (uint r = 0u; r < reflex_total && test && ear; r++) {
                 uint q = reflex_list[r];
                 bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;
-                ear = !(other && entersEar(q, a, b, c));
+                ear = !(other && (phase < 2u ? entersEar(q, a, b, c) : clearlyIn(a, b, c, at(q))));
                 budget -= min(budget, 1u);
             }
             if (ear) nodes[base + k].w = EAR;
@@ -438,7 +460,7 @@ void main() {
             uint verdict = live(k) ? rings[base + k].w : 0u;
             if (verdict == 2u) {
                 uint p = previousOf(k), s = nextOf(k);
-                loose_caps[base + k] = uvec4(nodes[base + p].z, nodes[base + k].z, nodes[base + s].z, f);
+                saveCap(slots + k, p, k, s);
                 if (turn(at(p), at(k), at(s)) < 0) atomicAdd(counts[STATUS_TURNED_OVER], 1u);
                 rings[base + p].x = s;
                 rings[base + s].y = p;
@@ -448,7 +470,7 @@ void main() {
         }
         sync();
         made += cleared;
-        phase = cleared == 0u ? min(phase + 1u, 3u) : 0u;
+        phase = cleared == 0u ? min(phase + 1u, 4u) : 0u;
         barrier();
     }
     if (lane == 0u && n > 0u) cap_counts[index] = made;

@@ -1,5 +1,5 @@
-// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists. Behind a flap that was dropped
-// lies what its other side faced.
+// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists, and neither where both sides have
+// come to belong to one fragment.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -13,16 +13,17 @@ READS(4, uvec2, fates);
 WRITES(5, uvec4, classes);
 READS(6, uint, parents);
 layout(push_constant) uniform Push { uint triangle_count; };
+#include "lib/piece_behind.glsl"
 
 void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_VALID] || counts[STATUS_FAILED] != 0u) return;
-    uint t = order[k], caps = triangle_count + counts[COUNT_FAN_TRIANGLES];
+    uint t = order[k];
     bool cap = (sources[t] & INNER_BIT) != 0u;
-    uint behind = cap ? caps + ((t - caps) ^ 1u) : t;
-    for (uint flaps = 0u; flaps < 64u && (sources[behind] & FLAP_BIT) != 0u; flaps++) behind = caps + ((parents[behind] - caps) ^ 1u);
+    uint behind = cap ? pieceBehind(t, triangle_count + counts[COUNT_FAN_TRIANGLES]) : t;
     uint mate = components[behind];
-    bool faced = mate != NO_INDEX && fates[mate].x != FATE_DISSOLVED;
-    bool stays = fates[components[t]].x != FATE_DISSOLVED;
-    classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced ? 1u : 0u, 0u, 0u);
+    uvec2 own = fates[components[t]], other = fates[mate != NO_INDEX ? mate : components[t]];
+    bool faced = mate != NO_INDEX && other.x != FATE_DISSOLVED;
+    bool stays = own.x != FATE_DISSOLVED, within = cap && faced && own.y == other.y;
+    classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced && !within ? 1u : 0u, 0u, 0u);
 }

@@ -1,4 +1,4 @@
-// Draw commands (outer, inner), bounds and records of the fragments; a cavity is taken off the piece around it.
+// Draw commands (outer, inner), bounds and records of the fragments, with all that is part of them: a cavity is taken off.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -17,7 +17,10 @@ WRITES(6, Bounds, bounds);
 WRITES(7, FragmentRecord, fragments);
 WRITES(8, ObjectMatrix, matrices);
 WRITES(9, ObjectState, objects);
-READS(10, uint, ordered_cavities);
+READS(10, uint, parts); // by owner
+READS(11, uint, part_owners);
+layout(push_constant) uniform Push { float model_unit; }; // of the records, in model units
+#include "lib/parts_of.glsl"
 
 void draw(uint at, uint count, uint first, uint vertex) {
     draw_commands[at] = DrawCommand(count, count > 0u ? 1u : 0u, first, int(vertex), at);
@@ -30,15 +33,15 @@ void placeObject(uint f, vec3 balance) {
                              float[6](0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0u, 0u);
 }
 
-FragmentRecord withoutCavities(uint c, FragmentRecord r) {
-    uint total = counts[COUNT_CAVITIES];
+FragmentRecord withParts(uint c, FragmentRecord r) {
+    uint first = firstPartFrom(c), last = firstPartFrom(c + 1u);
     vec4 measure = r.measure, lost_measure = vec4(0.0), moment = r.measure.x * r.balance, lost_moment = vec4(0.0);
-    for (uint k = 0u; k < total; k++) {
-        uint o = ordered_cavities[k];
-        bool ours = fates[o] == uvec2(FATE_CAVITY, c);
-        FragmentRecord hollow = records[o];
-        addTo(measure, lost_measure, ours ? hollow.measure : vec4(0.0));
-        addTo(moment, lost_moment, ours ? hollow.measure.x * hollow.balance : vec4(0.0));
+    for (uint k = first; k < last; k++) {
+        FragmentRecord part = records[parts[k]];
+        addTo(measure, lost_measure, part.measure);
+        addTo(moment, lost_moment, part.measure.x * part.balance);
+        r.low = min(r.low, part.low);
+        r.high = max(r.high, part.high);
     }
     r.balance = measure.x != r.measure.x ? moment / measure.x : r.balance;
     r.measure = measure;
@@ -52,13 +55,14 @@ void main() {
     if (demand_offsets[c + 1u].x == at.x) return;
     uint f = at.x;
     uvec2 sizes = shares[c].zw;
-    FragmentRecord r = withoutCavities(c, records[c]);
+    FragmentRecord r = withParts(c, records[c]);
     draw(2u * f, 3u * sizes.x, 3u * at.y, 3u * at.y);
     draw(2u * f + 1u, 3u * sizes.y, 3u * (at.y + sizes.x), 3u * at.y);
-    bounds[f] = Bounds(float[3](r.low.x, r.low.y, r.low.z), float[3](r.high.x, r.high.y, r.high.z));
+    vec3 low = r.low.xyz * model_unit, high = r.high.xyz * model_unit;
+    bounds[f] = Bounds(float[3](low.x, low.y, low.z), float[3](high.x, high.y, high.z));
     matrices[f].model = mat4(1.0);
     r.range = uvec4(f, at.y, sizes);
     r.fate = uvec4(fates[c], r.fate.zw);
     fragments[f] = r;
-    placeObject(f, r.balance.xyz);
+    placeObject(f, r.balance.xyz * model_unit);
 }

@@ -17,9 +17,10 @@ void main() {
     if (t >= counts[COUNT_TRIANGLES] || counts[STATUS_FAILED] != 0u) return;
     uint at = flag_offsets[t].x;
     bool valid = flag_offsets[t + 1u].x != at;
-    uint component = flag_offsets[rootOf(t)].y;
-    components[t] = valid ? component : NO_INDEX;
-    if (valid) {
+    components[t] = NO_INDEX;
+    if (valid) { // of a dropped flap, `parents` says its other side: following that would write it over
+        uint component = flag_offsets[rootOf(t)].y;
+        components[t] = component;
         keys[at] = component;
         values[at] = t;
     }

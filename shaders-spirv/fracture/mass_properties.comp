@@ -1,6 +1,6 @@
 // Volume, centroid, area and bounds of each component by the divergence theorem, a workgroup a component, summed in a fixed
 // order. Positions are taken relative to the component's own first corner, so that small pieces far from the center keep
-// their digits.
+// their digits; all of it in units of the event's box, so that a model of any size does.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -15,24 +15,27 @@ READS(3, uvec4, pieces);
 READS(4, uint, sources);
 READS(5, vec4, positions);
 WRITES(6, FragmentRecord, records);
+layout(push_constant) uniform Push { float unit; }; // a power of two
 
 shared vec4 sums[GROUP_SIZE];
 shared vec4 moments[GROUP_SIZE];
 shared vec4 lows[GROUP_SIZE];
 shared vec4 highs[GROUP_SIZE];
 
+vec3 cornerOf(uint id) { return positions[id].xyz * unit; }
+
 void main() {
     uint c = flatGroup(), lane = gl_LocalInvocationID.x;
     bool idle = c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u;
     uint first = idle ? 0u : component_start[c], last = idle ? 0u : component_start[c + 1u];
     uvec4 lead = pieces[order[first]];
-    precise vec3 origin = positions[lead.x].xyz;
+    precise vec3 origin = cornerOf(lead.x);
     vec4 sum = vec4(0.0), moment = vec4(0.0), lost_sum = vec4(0.0), lost_moment = vec4(0.0);
     vec4 low = vec4(1e38), high = vec4(-1e38);
     for (uint k = first + lane; k < last; k += GROUP_SIZE) {
         uint t = order[k];
         uvec4 piece = pieces[t];
-        precise vec3 a = positions[piece.x].xyz - origin, b = positions[piece.y].xyz - origin, d = positions[piece.z].xyz - origin;
+        precise vec3 a = cornerOf(piece.x) - origin, b = cornerOf(piece.y) - origin, d = cornerOf(piece.z) - origin;
         precise vec3 normal = cross(b - a, d - a); // of short edges: little to round
         precise float volume = dot(a, normal) / 6.0, area = 0.5 * length(normal);
         float outer_area = (sources[t] & INNER_BIT) == 0u ? area : 0.0, perimeter = length(b - a) + length(d - b) + length(a - d);

@@ -14,13 +14,14 @@ READS(3, uint, order);
 READS(4, uvec4, pieces);
 READS(5, vec4, positions);
 READS(6, FragmentRecord, records);
-WRITES(7, uvec2, fates);
-WRITES(8, uint, ordered_cavities); // by id
+UPDATES(7, uvec2, fates);
+layout(push_constant) uniform Push { float unit; };
 
 shared uint around[MOST_AROUND];
 shared uint around_count;
 shared float lane_sum[GROUP_SIZE];
-shared uint lower;
+
+vec3 cornerOf(uint id) { return positions[id].xyz * unit; }
 
 // Lists the pieces whose bounds contain the cavity's.
 void listAround(uint lane, FragmentRecord mine) {
@@ -43,7 +44,7 @@ float windingAround(uint lane, uint o, vec3 p) {
     uint last = component_start[o + 1u];
     for (uint k = component_start[o] + lane; k < last; k += GROUP_SIZE) {
         uvec4 piece = pieces[order[k]];
-        vec3 a = positions[piece.x].xyz - p, b = positions[piece.y].xyz - p, c = positions[piece.z].xyz - p;
+        vec3 a = cornerOf(piece.x) - p, b = cornerOf(piece.y) - p, c = cornerOf(piece.z) - p;
         float la = length(a), lb = length(b), lc = length(c);
         sum += 2.0 * atan(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
     }
@@ -58,26 +59,13 @@ float windingAround(uint lane, uint o, vec3 p) {
     return total / (4.0 * 3.14159265);
 }
 
-// The list was written in any order; what is summed over it later must not depend on that.
-void placeInOrder(uint lane, uint cavity) {
-    if (lane == 0u) lower = 0u;
-    barrier();
-    uint total = counts[COUNT_CAVITIES];
-    for (uint k = lane; k < total; k += GROUP_SIZE) {
-        if (cavities[k] < cavity) atomicAdd(lower, 1u);
-    }
-    barrier();
-    if (lane == 0u) ordered_cavities[lower] = cavity;
-}
-
 void main() {
     uint lane = gl_LocalInvocationID.x;
     bool idle = counts[STATUS_FAILED] != 0u || flatGroup() >= counts[COUNT_CAVITIES];
     uint cavity = cavities[idle ? 0u : flatGroup()];
     if (idle) return;
     FragmentRecord mine = records[cavity];
-    vec3 corner = positions[pieces[order[component_start[cavity]]].x].xyz;
-    placeInOrder(lane, cavity);
+    vec3 corner = cornerOf(pieces[order[component_start[cavity]]].x);
     listAround(lane, mine);
     uint total = min(around_count, uint(MOST_AROUND)), best = NO_INDEX;
     float smallest = 3e38;
@@ -90,6 +78,8 @@ void main() {
     }
     if (lane == 0u) {
         if (best == NO_INDEX || around_count > MOST_AROUND) atomicAdd(counts[STATUS_BAD_UNION], 1u);
-        fates[cavity] = uvec2(FATE_CAVITY, best == NO_INDEX ? cavity : best);
+        // What is around it may itself have become a part of another piece, or nothing.
+        uvec2 around_fate = fates[best == NO_INDEX ? cavity : best];
+        fates[cavity] = uvec2(around_fate.x == FATE_DISSOLVED ? FATE_DISSOLVED : FATE_CAVITY, around_fate.y);
     }
 }

@@ -31,7 +31,7 @@
 #define COUNT_SEGMENTS 16
 #define COUNT_FACES 17
 #define COUNT_CAP_TRIANGLES 18
-#define COUNT_NODES 19
+#define COUNT_NODES 19           /* corners that large faces may have, bridges included */
 #define COUNT_COMPONENTS 20
 #define COUNT_TRIANGLES 21       /* candidates: whole triangles, fans, both sides of caps */
 #define COUNT_FRAGMENTS 22
@@ -47,7 +47,9 @@
 #define COUNT_CAVITIES 32
 #define COUNT_SUSPECTS 33         /* caps that may be one side of a flap */
 #define COUNT_SUSPECT_SIDES 34
-#define COUNT_TOTAL 35
+#define COUNT_FILMS 35
+#define COUNT_PARTS 36            /* cavities and joined films, each part of another component's fragment */
+#define COUNT_TOTAL 37
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL
@@ -112,6 +114,8 @@
 #define FATE_FRAGMENT 0u
 #define FATE_DISSOLVED 1u
 #define FATE_CAVITY 2u
+#define FATE_FILM 3u   /* too thin, and not decided yet */
+#define FATE_JOINED 4u /* and the round; a film that became part of a fragment */
 
 #define RADIX_BITS 4
 #define RADIX_TILE 1024

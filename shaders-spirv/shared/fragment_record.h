@@ -1,4 +1,5 @@
-// One component of the surface of the pieces, and what becomes of it. Read by C++ and GLSL; four-word members only, so that
+// One component of the surface of the pieces, and what becomes of it, in units of the event's box (half its edge is 1): in
+// model units the volume of a model of 1e-9 would be no number any more. Read by C++ and GLSL; four-word members only, so that
 // std430 and C++ agree.
 #ifndef BRITTLE_SHARED_FRAGMENT_RECORD_H
 #define BRITTLE_SHARED_FRAGMENT_RECORD_H
@@ -14,7 +15,7 @@ using RecordUint4 = uint32_t[4];
 #endif
 
 struct FragmentRecord {
-    RecordFloat4 measure;  // volume, area, outer area, perimeter of all triangles; model units
+    RecordFloat4 measure;  // volume, area, outer area, perimeter of all triangles
     RecordFloat4 balance;  // center of mass, relative to the mesh's center; w unused
     RecordFloat4 low;      // bounds, relative to the mesh's center
     RecordFloat4 high;

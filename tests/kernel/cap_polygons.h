@@ -20,6 +20,7 @@ struct CapPolygon {
     std::vector<Word2> segments;     // between points
     std::optional<size_t> triangles; // how many there must be
     bool may_be_flat = false;        // triangles without area are no mistake
+    int64_t crosses = 0;             // itself, by so many steps: triangles may be turned over by as much
 };
 CapPolygon polygonOf(const std::vector<CapLoop>& loops);
 

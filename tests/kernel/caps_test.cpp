@@ -125,6 +125,40 @@ TEST(SmallCaps, OfHolesAndIslands) {
                   polygonOf(sieve)});
 }
 
+// A slit whose sides have changed places, as where two parts of the model touch: no large triangle may be turned over.
+TEST(SmallCaps, OfSlitsThatAreTurnedOver) {
+    std::vector<CapPolygon> polygons;
+    for (const int32_t depth : {200, 5000, 9000, 9999})
+        for (const int32_t over : {0, 1, 2}) {
+            CapLoop loop = {{0, 0},
+                            {5000, -20},
+                            {10'000, 0},
+                            {10'000, 5000},
+                            {10'000 - depth, 5000 - over},
+                            {10'000, 5000 - over},
+                            {10'000, 10'000},
+                            {7000, 10'020},
+                            {0, 10'000},
+                            {-30, 5000}};
+            polygons.push_back(polygonOf({loop}));
+            for (int32_t k = 1; k < 20; ++k) // more corners on the way down, so that a lane cannot do it
+                loop.push_back({-30 + (k % 2), 5000 - 200 * k});
+            polygons.push_back(polygonOf({loop}));
+        }
+    for (CapPolygon& polygon : polygons) {
+        polygon.crosses = 2;
+        polygon.triangles.reset();
+    }
+    for (const Through kernel : {Through::AllInTurn, Through::Large, Through::Huge}) {
+        const CapRun run = capOnDevice(polygons, kCapBases[0], kernel);
+        for (size_t f = 0; f < polygons.size(); ++f) {
+            SCOPED_TRACE(f);
+            expectTriangulated(polygons[f], run.triangles[f]);
+        }
+        EXPECT_EQ(run.bad, 0u);
+    }
+}
+
 TEST(SmallCaps, OfSeveralLoops) {
     const std::vector<CapLoop> squares = thirtySquares();
     expectCapped({polygonOf({squares[0], squares[1]}), polygonOf(squares), polygonOf({kEll, squareAt(25, 20, 9)})});

@@ -47,16 +47,17 @@ Judged judgeOnDevice(const std::vector<Component>& components, float grid_step) 
     const engine::Buffer start = bufferOf(pools.start), order = bufferOf(pools.order), pieces = bufferOf(pools.pieces);
     const engine::Buffer sources = bufferOf(pools.sources), positions = bufferOf(pools.positions);
     const engine::Buffer records = blankBuffer<brittle::FragmentRecord>(n), fates = blankBuffer<Word2>(n);
-    const engine::Buffer cavities = blankBuffer<uint32_t>(n), ordered = blankBuffer<uint32_t>(n);
+    const engine::Buffer cavities = blankBuffer<uint32_t>(n), films = blankBuffer<uint32_t>(n);
     onDevice([&](engine::Commands& commands) {
-        commands.dispatchGroups(kernel("mass_properties"), n, engine::NoPush{},
+        commands.dispatchGroups(kernel("mass_properties"), n, 1.0f,
                                 {counts.words, start, order, pieces, sources, positions, records});
-        commands.dispatch(kernel("decide_fates"), n, grid_step, {counts.words, records, fates, cavities});
+        commands.dispatch(kernel("decide_fates"), n, grid_step, {counts.words, records, fates, cavities, films});
         counts.publish(commands, COUNT_CAVITIES, n);
-        commands.dispatchIndirect(kernel("nest_cavities"), counts.groupsOf(COUNT_CAVITIES), engine::NoPush{},
-                                  {counts.words, cavities, start, order, pieces, positions, records, fates, ordered});
+        counts.publish(commands, COUNT_FILMS, n);
+        commands.dispatchIndirect(kernel("nest_cavities"), counts.groupsOf(COUNT_CAVITIES), 1.0f,
+                                  {counts.words, cavities, start, order, pieces, positions, records, fates});
     });
-    return {valuesOf<brittle::FragmentRecord>(records, n), valuesOf<Word2>(fates, n), counts[STATUS_DISSOLVED],
+    return {valuesOf<brittle::FragmentRecord>(records, n), valuesOf<Word2>(fates, n), counts[COUNT_FILMS],
             counts[COUNT_CAVITIES], counts[STATUS_BAD_UNION]};
 }
 

@@ -16,7 +16,7 @@ struct Component {
 struct Judged {
     std::vector<brittle::FragmentRecord> records;
     std::vector<Word2> fates; // fate, the component it belongs to
-    uint32_t dissolved = 0, cavities = 0, bad = 0;
+    uint32_t films = 0, cavities = 0, bad = 0;
 };
 
 // Triangles of all components lie mixed up in memory; only their order tells them apart.

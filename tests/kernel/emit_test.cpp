@@ -72,14 +72,18 @@ void expectAllocated(const Demand& demand) {
         shares[c] = {shares[c][0], shares[c][1], totals[owner][0], totals[owner][1]};
         demands.push_back(fate == FATE_FRAGMENT ? Word4{1, totals[c][0] + totals[c][1], 0, 0} : Word4{0, 0, 0, 0});
     }
-    counts[COUNT_CAVITIES] = static_cast<uint32_t>(hollow.size());
-    std::shuffle(hollow.begin(), hollow.end(), std::mt19937(n));
-    const engine::Buffer hollows = bufferOf(hollow), first = bufferOf(start), classes = bufferOf(class_offsets),
-                         fates = bufferOf(demand.fates);
+    counts[COUNT_PARTS] = static_cast<uint32_t>(hollow.size());
+    const auto owner = [&](uint32_t c) { return demand.fates[c][1]; };
+    std::stable_sort(hollow.begin(), hollow.end(), [&](uint32_t a, uint32_t b) { return owner(a) < owner(b); });
+    std::vector<uint32_t> part_owners;
+    for (const uint32_t c : hollow)
+        part_owners.push_back(owner(c));
+    const engine::Buffer hollows = bufferOf(hollow), owners = bufferOf(part_owners), first = bufferOf(start),
+                         classes = bufferOf(class_offsets), fates = bufferOf(demand.fates);
     const engine::Buffer asked = blankBuffer<Word4>(n), share = blankBuffer<Word4>(n);
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("allocate"), n, engine::NoPush{},
-                          {counts.words, first, classes, fates, asked, share, hollows});
+                          {counts.words, first, classes, fates, asked, share, hollows, owners});
     });
     EXPECT_EQ(valuesOf<Word4>(asked, n), demands);
     EXPECT_EQ(valuesOf<Word4>(share, n), shares);
@@ -149,7 +153,9 @@ std::map<uint32_t, Sides> sidesOf(const DeviceEvent& event) {
         for (size_t k = 0; k < 3; ++k)
             std::copy_n(positions[pieces[t][k]].begin(), 3, corners[k].begin());
         Sides& side = sides[fates[components[t]][1]];
-        const bool faced = t >= caps && stays(caps + ((t - caps) ^ 1));
+        const uint32_t behind = caps + ((t - caps) ^ 1);
+        const bool faced = t >= caps && stays(behind);
+        if (faced && fates[components[behind]][1] == fates[components[t]][1]) continue; // within one fragment
         (faced ? side.inner : side.outer).push_back(corners);
     }
     return sides;
@@ -184,8 +190,8 @@ void expectDrawn(const Emitted& e) {
             ASSERT_EQ(command.first_instance, 2 * f + side);
         }
         for (size_t k = 0; k < 3; ++k) {
-            ASSERT_EQ(bounds[f].lower[k], e.fragments[f].low[k]);
-            ASSERT_EQ(bounds[f].upper[k], e.fragments[f].high[k]);
+            ASSERT_EQ(bounds[f].lower[k] * e.event.grid().unit(), e.fragments[f].low[k]);
+            ASSERT_EQ(bounds[f].upper[k] * e.event.grid().unit(), e.fragments[f].high[k]);
         }
     }
 }

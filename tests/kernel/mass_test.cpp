@@ -138,7 +138,7 @@ TEST(SmallFates, OfACavityIsTheSmallestPieceAroundIt) {
         {FATE_CAVITY, 3}, {FATE_FRAGMENT, 1}, {FATE_CAVITY, 1}, {FATE_FRAGMENT, 3}, {FATE_CAVITY, 1}};
     EXPECT_EQ(judged.fates, expected);
     EXPECT_EQ(judged.cavities, 3u);
-    EXPECT_EQ(judged.dissolved + judged.bad, 0u);
+    EXPECT_EQ(judged.films + judged.bad, 0u);
     EXPECT_EQ(judgeOnDevice({{small, 7}, {large, 7}, {cavity(30, 40), 7}}, .01f).fates[2], (Word2{FATE_CAVITY, 0}));
 }
 
@@ -154,22 +154,22 @@ TEST(SmallFates, OfACavityInNothingIsCounted) {
 }
 
 // Volume over area: a plate of thickness h has h / 2.
-TEST(SmallFates, OfPlatesThinnerThanTwoStepsIsToDissolve) {
+TEST(SmallFates, OfPlatesThinnerThanTwoStepsIsOpen) {
     const float step = .01f;
     std::vector<Component> plates;
     for (const double thickness : {.001, .01, .018, .03, .1, 1.0})
         plates.push_back({support::boxTriangles({0, 0, 0}, {100, 100, thickness}), 0});
     const Judged judged = judgeOnDevice(plates, step);
     for (uint32_t c = 0; c < plates.size(); ++c)
-        EXPECT_EQ(judged.fates[c], (Word2{c < 3 ? FATE_DISSOLVED : FATE_FRAGMENT, c})) << c;
-    EXPECT_EQ(judged.dissolved, 3u);
+        EXPECT_EQ(judged.fates[c], (Word2{c < 3 ? FATE_FILM : FATE_FRAGMENT, c})) << c;
+    EXPECT_EQ(judged.films, 3u);
 }
 
 // Inside out: a cavity where it is the model's own surface, rounding where it is made of caps.
 TEST(SmallFates, OfInvertedPiecesDependsOnTheirSurface) {
     const Triangles around = support::boxTriangles({0, 0, 0}, {100, 100, 100});
     const Judged judged = judgeOnDevice({{cavity(10, 20), 0, 4}, {around, 0}, {cavity(30, 40), 0}}, .01f);
-    EXPECT_EQ(judged.fates, (std::vector<Word2>{{FATE_DISSOLVED, 0}, {FATE_FRAGMENT, 1}, {FATE_CAVITY, 1}}));
+    EXPECT_EQ(judged.fates, (std::vector<Word2>{{FATE_FILM, 0}, {FATE_FRAGMENT, 1}, {FATE_CAVITY, 1}}));
 }
 
 } // namespace

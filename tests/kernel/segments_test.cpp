@@ -21,7 +21,9 @@ struct Faces {
     std::vector<uint32_t> welded = event.read<uint32_t>(event.buffers().welded, event[COUNT_POINTS]);
     std::vector<uint32_t> faces = event.read<uint32_t>(event.buffers().faces, event[COUNT_FACES]);
     std::vector<uint32_t> cap_counts = event.read<uint32_t>(event.buffers().cap_counts, event[COUNT_FACES]);
-    std::vector<Word4> caps = event.read<Word4>(event.buffers().loose_caps, 2 * segments.size());
+    std::vector<uint32_t> slots = event.read<uint32_t>(event.buffers().cap_slots, event[COUNT_FACES]);
+    std::vector<std::array<uint32_t, 3>> caps =
+        event.read<std::array<uint32_t, 3>>(event.buffers().loose_caps, segments.size() + event[COUNT_NODES]);
 };
 
 // How often each side is walked one way more than the other; the lower end first.
@@ -53,8 +55,8 @@ void expectClosed(const Outline& outline, uint32_t face) {
 Outline capOutline(const Faces& f, size_t at) {
     Outline outline;
     uint32_t left = f.cap_counts[at];
-    for (uint32_t slot = 2 * f.offsets[f.faces[at]]; slot < 2 * f.offsets[f.faces[at] + 1] && left > 0; ++slot) {
-        const Word4& cap = f.caps[slot];
+    for (uint32_t slot = f.slots[at]; slot < f.caps.size() && left > 0; ++slot) {
+        const std::array<uint32_t, 3>& cap = f.caps[slot];
         if (cap[0] == NO_INDEX) continue;
         --left;
         for (size_t k = 0; k < 3; ++k)

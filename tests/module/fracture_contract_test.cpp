@@ -1,102 +1,19 @@
-// Whole fractures against the contract, as an outsider sees it: the exported file, read back by the checker's own reader, and
-// the model, read by the checker's own reader.
+// Whole fractures of many models, by the pattern and at sites that are in ties, against the contract; and what is refused.
 #include "modules/brittle/export/glb.h"
-#include "modules/brittle/fracture/fracture.h"
-#include "modules/brittle/fracture/verify.h"
-#include "modules/brittle/mesh/check.h"
-#include "modules/brittle/mesh/import.h"
-#include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/primitives.h"
-#include "tests/engine/test_device.h"
 #include "tests/hard/hard_sites.h"
-#include "tests/reference/contract.h"
-#include "tests/reference/model_file.h"
+#include "tests/module/whole_fracture.h"
 #include "tests/support/shared_meshes.h"
 #include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <memory>
 
 namespace {
 
 using brittle::FractureOptions;
-using brittle::FractureResult;
-using brittle::PreparedMesh;
-
-// One for all tests of the program, so that pipelines are made once; it goes before its device does.
-class SharedFracture : public testing::Environment {
-public:
-    brittle::Fracture& get() {
-        if (!fracture_) {
-            auto made = brittle::Fracture::create(engine_test::device());
-            if (!made) ADD_FAILURE() << made.error().message;
-            fracture_ = std::move(*made);
-        }
-        return *fracture_;
-    }
-    void TearDown() override { fracture_.reset(); }
-
-private:
-    std::unique_ptr<brittle::Fracture> fracture_;
-};
-SharedFracture& shared_fracture = *static_cast<SharedFracture*>(testing::AddGlobalTestEnvironment(new SharedFracture));
-
-struct Model {
-    PreparedMesh prepared;
-    reference::Triangles triangles; // as the checker's reader sees them
-};
-
-Model modelFrom(const brittle::ImportedMesh& imported) {
-    auto prepared = brittle::prepareMesh(imported);
-    EXPECT_TRUE(prepared) << prepared.error().message;
-    Model model{std::move(*prepared), {}};
-    for (const brittle::Index3& t : imported.triangles)
-        model.triangles.push_back({imported.positions[t[0]], imported.positions[t[1]], imported.positions[t[2]]});
-    return model;
-}
-
-Model modelFrom(const std::string& name) {
-    if (name.starts_with("builtin:")) {
-        auto made = brittle::makeBuiltin(name.substr(8));
-        EXPECT_TRUE(made) << made.error().message;
-        return modelFrom(*made);
-    }
-    auto imported = brittle::importMesh(support::sharedMesh(name));
-    EXPECT_TRUE(imported) << imported.error().message;
-    Model model = modelFrom(*imported);
-    model.triangles = reference::readModel(support::sharedMesh(name).string());
-    return model;
-}
-
-reference::FragmentFile exported(const brittle::FragmentSet& fragments) {
-    const auto bytes = brittle::encodeGlb(fragments);
-    EXPECT_TRUE(bytes) << bytes.error().message;
-    const std::string path = testing::TempDir() + "brittle_contract.glb";
-    std::ofstream(path, std::ios::binary) << *bytes;
-    return reference::readFragmentFile(path);
-}
-
-void expectCountsAddUp(const FractureResult& result) {
-    const brittle::FractureCounts& c = result.counts;
-    EXPECT_EQ(c.sites_used + c.sites_welded, c.sites_requested);
-    EXPECT_EQ(c.cells_ok + c.cells_empty + c.cells_refused, c.sites_used);
-    EXPECT_EQ(result.sites.size(), c.sites_used);
-    EXPECT_GE(result.fragments.fragments.size(), c.cells_ok);
-}
-
-void expectContract(const Model& model, const FractureOptions& options) {
-    const auto result = shared_fracture.get().shatter(model.prepared.mesh, model.prepared.topology, options);
-    ASSERT_TRUE(result) << result.error().message;
-    expectCountsAddUp(*result);
-    const brittle::MeshMeasures measures = brittle::inspectMesh(model.prepared.mesh, model.prepared.topology).measures;
-    const auto own = brittle::verifyContract(model.prepared.mesh, measures, result->fragments, result->sites);
-    EXPECT_TRUE(own.holds()) << own.violation();
-    const reference::ContractReport report = reference::checkContract(exported(result->fragments), model.triangles);
-    EXPECT_TRUE(report.holds()) << report.text();
-}
+using namespace whole;
 
 struct Case {
     const char* model;
@@ -199,28 +116,6 @@ INSTANTIATE_TEST_SUITE_P(Long, HardSitesContract,
                                                      {"builtin:cube", "spot_low_resolution.obj", "gearwheel.bin.stl"})),
                          hardNameOf);
 
-// Bisectors in the faces of the model: a cube split by a lattice whose planes are the cube's own.
-TEST(FractureTies, LatticesInAndThroughTheFacesOfACube) {
-    const Model cube = modelFrom("builtin:cube");
-    for (const double step : {1.0, 0.5, 0.25}) {
-        SCOPED_TRACE(step);
-        FractureOptions options;
-        for (double x = -1; x <= 1; x += step)
-            for (double y = -1; y <= 1; y += step)
-                for (double z = -1; z <= 1; z += step)
-                    options.given_sites.push_back({x, y, z});
-        expectContract(cube, options);
-    }
-}
-
-TEST(FractureTies, SitesInOnePlaneAndOutsideTheModel) {
-    const Model cube = modelFrom("builtin:cube");
-    FractureOptions options;
-    for (int k = 0; k < 20; ++k)
-        options.given_sites.push_back({-1.5 + 0.15 * k, 0.1 * (k % 3), 0});
-    expectContract(cube, options);
-}
-
 TEST(FractureLimits, ManyCellsInAFewTriangles) {
     FractureOptions options;
     options.site_count = 2000;
@@ -259,7 +154,7 @@ TEST(FractureLimits, AHundredThousandCellsAlone) {
     FractureOptions options;
     options.site_count = 100'000;
     options.only_cells = true;
-    const auto result = shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+    const auto result = fracture().shatter(cube.prepared.mesh, cube.prepared.topology, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_EQ(result->counts.sites_used + result->counts.sites_welded, 100'000u);
     EXPECT_TRUE(result->fragments.fragments.empty());
@@ -283,15 +178,6 @@ Model hollowSphere(uint32_t level) {
     return modelFrom(makeIcosphere(level) + turnedOver(moved(makeIcosphere(level), 0.9, {0, 0, 0})));
 }
 
-void expectContractOf(const Model& model, std::initializer_list<uint32_t> site_counts) {
-    for (const uint32_t count : site_counts) {
-        SCOPED_TRACE(count);
-        FractureOptions options;
-        options.site_count = count;
-        expectContract(model, options);
-    }
-}
-
 TEST(FractureCavities, StayWithThePieceAroundThem) {
     using namespace brittle;
     using namespace support;
@@ -304,41 +190,6 @@ TEST(FractureCavities, StayWithThePieceAroundThem) {
     expectContractOf(modelFrom(cheese), {1, 8, 100});
 }
 
-// A body-centered lattice over the unit cube: walls of hollows lie in bisectors, to within a step of the grid.
-FractureOptions centeredLattice() {
-    FractureOptions options;
-    for (int x = 0; x <= 6; ++x)
-        for (int y = 0; y <= 6; ++y)
-            for (int z = 0; z <= 6; ++z)
-                for (const double shift : {-0.5, -0.5 + 1.0 / 12})
-                    options.given_sites.push_back({x / 6.0 + shift, y / 6.0 + shift, z / 6.0 + shift});
-    return options;
-}
-
-brittle::ImportedMesh boxOf(const brittle::Double3& lower, const brittle::Double3& upper) {
-    brittle::ImportedMesh box = brittle::makeCube();
-    for (brittle::Double3& p : box.positions)
-        for (size_t k = 0; k < 3; ++k)
-            p[k] = p[k] < 0 ? lower[k] : upper[k];
-    return box;
-}
-
-TEST(FractureTies, WallsOfHollowsInBisectors) {
-    using namespace support;
-    const brittle::ImportedMesh outside = boxOf({-.5, -.5, -.5}, {.5, .5, .5});
-    for (const auto& [lower, upper] : {std::pair{-.25, .25}, std::pair{-1. / 3, 0.}, std::pair{-.2, .1}})
-        expectContract(modelFrom(outside + turnedOver(boxOf({lower, lower, lower}, {upper, upper, upper}))), centeredLattice());
-}
-
-TEST(FractureTies, ThinPlates) {
-    for (const double thickness : {1e-2, 1e-4, 1e-6}) {
-        SCOPED_TRACE(thickness);
-        const Model plate = modelFrom(boxOf({-.5, -.5, 0}, {.5, .5, thickness}));
-        expectContract(plate, centeredLattice());
-        expectContractOf(plate, {2, 150});
-    }
-}
-
 // More triangles around the hollow than one lane may walk.
 TEST(FractureLimits, AHollowModelOfManyTriangles) { expectContractOf(hollowSphere(6), {1, 3}); }
 
@@ -346,9 +197,9 @@ TEST(FractureRefuses, NoSitesAndSitesFarAway) {
     const Model cube = modelFrom("builtin:cube");
     FractureOptions options;
     options.site_count = 0;
-    EXPECT_FALSE(shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options));
+    EXPECT_FALSE(fracture().shatter(cube.prepared.mesh, cube.prepared.topology, options));
     options.given_sites = {{0, 0, 0}, {1e9, 0, 0}};
-    const auto result = shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+    const auto result = fracture().shatter(cube.prepared.mesh, cube.prepared.topology, options);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, engine::ErrorCode::BadInput);
 }
@@ -357,7 +208,7 @@ TEST(FractureRefuses, MoreCellsThanTheDeviceCanBind) {
     const Model cube = modelFrom("builtin:cube");
     FractureOptions options;
     options.site_count = 1 << 24;
-    const auto result = shared_fracture.get().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+    const auto result = fracture().shatter(cube.prepared.mesh, cube.prepared.topology, options);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, engine::ErrorCode::Capacity) << result.error().message;
 }
@@ -368,7 +219,7 @@ TEST(FractureRepeats, TheSameBytesEveryTime) {
     options.site_count = 50;
     std::string first;
     for (int run = 0; run < 3; ++run) {
-        const auto result = shared_fracture.get().shatter(ring.prepared.mesh, ring.prepared.topology, options);
+        const auto result = fracture().shatter(ring.prepared.mesh, ring.prepared.topology, options);
         ASSERT_TRUE(result) << result.error().message;
         const auto bytes = brittle::encodeGlb(result->fragments);
         ASSERT_TRUE(bytes);

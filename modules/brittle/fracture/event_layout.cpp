@@ -49,6 +49,7 @@ void takeKept(const Input& in, Taker& take) {
     b.corner_attributes = take.words(15 * mesh.triangles.size());
     b.sites = take.quads(c.sites);
     b.positions = take.quads(points);
+    b.cell_offsets = take.quads(c.sites + 1ull);
     b.neighbors = take.words(c.neighbors);
     b.face_cells = take.words(c.neighbors);
     b.owners = take.words(c.vertices);
@@ -60,7 +61,8 @@ void takeKept(const Input& in, Taker& take) {
     b.shared_points = take.words(points);
     b.faces = take.words(c.neighbors);
     b.face_offsets = take.words(c.neighbors + 1ull);
-    b.loose_caps = take.quads(2ull * c.segments);
+    b.loose_caps = take.words(3 * (uint64_t{c.segments} + c.nodes));
+    b.cap_slots = take.words(c.neighbors);
     b.cap_offsets = take.words(c.neighbors + 1ull);
 }
 
@@ -69,14 +71,12 @@ void takeDiagram(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     const Mesh& mesh = in.mesh;
     EventBuffers& b = in.b;
-    uint64_t n = c.sites;
     uint64_t points = c.points();
     b.triangle_edges = take.words(3 * mesh.triangles.size());
     b.mesh_edges = take.words(2ull * c.edges);
     b.grid_vertices = take.quads(c.vertices);
     b.bin_start = take.words(c.bins + 1ull);
     b.bin_sites = take.quads(c.sites);
-    b.cell_offsets = take.quads(n + 1);
     b.corners = take.quads(c.corners);
     b.corner_info = take.words(2ull * c.corners);
     b.vertex_sites = take.quads(c.voronoi_vertices);
@@ -185,9 +185,9 @@ void takeCaps(const Input& in, Taker& take) {
     b.large_faces = take.words(c.neighbors);
     b.huge_faces = take.words(c.neighbors);
     b.cap_counts = take.words(c.neighbors);
-    b.nodes = take.quads(2ull * c.segments);
-    b.rings = take.quads(2ull * c.segments);
-    b.loops = take.quads(2ull * c.segments);
+    b.nodes = take.quads(c.nodes);
+    b.rings = take.quads(c.nodes);
+    b.loops = take.quads(c.nodes);
 }
 
 // Triangles, islands and fragments: nothing of the diagram is read any more.
@@ -201,8 +201,8 @@ void takePieces(const Input& in, Taker& take) {
     b.parents = take.words(n);
     b.suspects = take.words(c.caps);
     b.flap_table = take.words(4ull * c.flapTable());
-    b.flap_slots = take.words(c.rare.flaps ? 2ull * c.caps : 1);
-    b.flap_partners = take.words(c.rare.flaps ? 2ull * c.caps : 1);
+    b.flap_slots = take.words(c.rare.flaps ? c.flap_sides : 1);
+    b.flap_partners = take.words(c.rare.flaps ? c.flap_sides : 1);
     b.edge_table = take.words(c.edgeTable());
     b.flags = take.quads(n);
     b.flag_offsets = take.quads(n + 1);
@@ -217,7 +217,9 @@ void takePieces(const Input& in, Taker& take) {
     b.records = take.words(24ull * c.components);
     b.fates = take.words(2ull * c.components);
     b.cavities = take.words(c.components);
-    b.ordered_cavities = take.words(c.components);
+    b.films = take.words(c.components);
+    b.parts = take.words(c.components);
+    b.other_parts = take.words(c.components);
     b.classes = take.quads(n);
     b.class_offsets = take.quads(n + 1);
     b.demands = take.quads(c.components);

@@ -54,7 +54,7 @@ Extents measureExtents(const Mesh& mesh, const MeshTopology& topology, const Eve
 uint32_t Capacities::siteTable() const { return tableSize(sites); }
 uint32_t Capacities::pairTable() const { return tableSize(pairs); }
 uint32_t Capacities::pointTable() const { return tableSize(points()); }
-uint32_t Capacities::flapTable() const { return rare.flaps ? tableSize(uint64_t{2} * caps) : 1; }
+uint32_t Capacities::flapTable() const { return rare.flaps ? tableSize(flap_sides) : 1; }
 uint32_t Capacities::edgeTable() const { return tableSize(uint64_t{3} * pieces / 2); }
 
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count) {
@@ -80,7 +80,10 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.fans = size(2.5 * c.polygons);
     c.intervals = size(c.voronoi_edges + c.triples * 0.6);
     c.segments = size(3.0 * c.intervals + 1.2 * c.crossings + 1.5 * c.triples);
+    // Two a segment of the faces that a lane cannot do: all of them in few cells, hardly any in many.
+    c.nodes = std::min(2 * c.segments, std::max(1u << 18, c.segments / 2));
     c.caps = size(0.62 * c.segments + 1024);
+    c.flap_sides = size(c.caps / 4.0 + 4096);
     c.rare.exact_cells = site_count > 256;
     c.pieces = c.triangles + c.fans + 2 * c.caps;
     c.components = size(std::min<double>(c.pieces, 6 * n + 0.1 * c.triangles + 16384));
@@ -106,7 +109,7 @@ bool takeUp(bool& recorded, bool met) {
 Capacities forCellsOnly(Capacities c) {
     constexpr uint32_t kLittle = 16;
     for (uint32_t* pool : {&c.crossings, &c.pairs, &c.polygons, &c.sides, &c.triples, &c.fans, &c.intervals, &c.segments,
-                           &c.caps, &c.pieces, &c.components, &c.fragments, &c.emitted})
+                           &c.nodes, &c.caps, &c.pieces, &c.components, &c.fragments, &c.emitted})
         *pool = std::min(*pool, kLittle);
     return c;
 }
@@ -117,7 +120,11 @@ bool Capacities::grow(const uint32_t* status) {
     more |= takeUp(rare.medium_cells, status[COUNT_EXACT_MEDIUM] != 0);
     more |= takeUp(rare.large_cells, status[COUNT_EXACT_MEDIUM] != 0); // who needs the one often needs the other
     more |= takeUp(rare.huge_faces, status[COUNT_HUGE_FACES] != 0);
-    more |= takeUp(rare.flaps, status[COUNT_SUSPECTS] != 0);
+    if (takeUp(rare.flaps, status[COUNT_SUSPECTS] != 0)) {
+        flap_sides = std::max(flap_sides, 2 * status[COUNT_SUSPECTS]);
+        more = true;
+    }
+    more |= takeUp(rare.films, status[COUNT_FILMS] != 0);
     more |= takeUp(rare.cavities, status[COUNT_CAVITIES] != 0);
     if (status[STATUS_SIDES] > sides_per_polygon && sides_per_polygon < MOST_SIDES) {
         sides_per_polygon = MOST_SIDES;
@@ -143,7 +150,9 @@ bool Capacities::grow(const uint32_t* status) {
     fit(fans, COUNT_FAN_TRIANGLES);
     fit(intervals, COUNT_INTERVALS);
     fit(segments, COUNT_SEGMENTS);
+    fit(nodes, COUNT_NODES);
     fit(caps, COUNT_CAP_TRIANGLES);
+    fit(flap_sides, COUNT_SUSPECT_SIDES);
     fit(components, COUNT_COMPONENTS);
     fit(exact_medium, COUNT_EXACT_MEDIUM);
     fit(exact_large, COUNT_EXACT_LARGE);

@@ -21,7 +21,8 @@ struct Capacities {
     uint32_t sites = 0, vertices = 0, edges = 0, triangles = 0, bins = 0; // exact
     uint32_t neighbors = 0, corners = 0, voronoi_vertices = 0, voronoi_edges = 0;
     uint32_t crossings = 0, pairs = 0, pair_table = 0, polygons = 0, sides = 0, triples = 0, fans = 0;
-    uint32_t intervals = 0, segments = 0, caps = 0, pieces = 0, components = 0, fragments = 0, emitted = 0;
+    uint32_t intervals = 0, segments = 0, nodes = 0, caps = 0, flap_sides = 0, pieces = 0, components = 0, fragments = 0,
+             emitted = 0;
     uint32_t exact_medium = 0, exact_large = 0;
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
@@ -29,7 +30,7 @@ struct Capacities {
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     struct Rare {
-        bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false,
+        bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, films = false,
              cavities = false;
         Rare joined(const Rare& other) const {
             return {exact_cells || other.exact_cells,
@@ -37,6 +38,7 @@ struct Capacities {
                     large_cells || other.large_cells,
                     huge_faces || other.huge_faces,
                     flaps || other.flaps,
+                    films || other.films,
                     cavities || other.cavities};
         }
     } rare;
@@ -83,11 +85,12 @@ struct EventBuffers {
     // depth and caps
     View triple_edges, edge_triple_counts, edge_triple_offsets, edge_triple_cursors, edge_sums, loose_triples, ordered_triples;
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
-    View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_counts, cap_offsets, nodes, rings, loops;
+    View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_slots, cap_counts, cap_offsets, nodes, rings,
+        loops;
     // pieces
     View pieces, sources, parents, suspects, flap_table, flap_slots, flap_partners, edge_table, flags, flag_offsets, keys,
         values, other_keys, other_values, histogram, digit_offsets;
-    View components, component_start, records, fates, cavities, ordered_cavities, classes, class_offsets, demands,
+    View components, component_start, records, fates, cavities, films, parts, other_parts, classes, class_offsets, demands,
         demand_offsets, shares;
 };
 

@@ -35,7 +35,8 @@ engine::Result<void> fetch(engine::Device& device, std::span<const Piece> pieces
     return {};
 }
 
-Fragment fragmentOf(const FragmentRecord& record, const std::vector<Double3>& sites) {
+// `size`: model units in a unit of the records.
+Fragment fragmentOf(const FragmentRecord& record, double size, const std::vector<Double3>& sites) {
     Fragment f;
     f.cell = record.fate[2];
     f.first_vertex = 3 * record.range[1];
@@ -44,11 +45,11 @@ Fragment fragmentOf(const FragmentRecord& record, const std::vector<Double3>& si
     f.outer_index_count = 3 * record.range[2];
     f.inner_index_count = 3 * record.range[3];
     f.site = f.cell < sites.size() ? sites[f.cell] : Double3{};
-    f.volume = static_cast<double>(record.measure[0]);
+    f.volume = static_cast<double>(record.measure[0]) * size * size * size;
     for (size_t k = 0; k < 3; k++) {
-        f.centroid[k] = static_cast<double>(record.balance[k]);
-        f.lower[k] = record.low[k];
-        f.upper[k] = record.high[k];
+        f.centroid[k] = static_cast<double>(record.balance[k]) * size;
+        f.lower[k] = record.low[k] * static_cast<float>(size);
+        f.upper[k] = record.high[k] * static_cast<float>(size);
     }
     return f;
 }
@@ -96,7 +97,7 @@ engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mes
         result.sites.push_back(p);
     }
     for (const FragmentRecord& record : records)
-        set.fragments.push_back(fragmentOf(record, result.sites));
+        set.fragments.push_back(fragmentOf(record, 1 / static_cast<double>(grid.unit()), result.sites));
     fillCounts(status, options, result);
     return status;
 }

@@ -117,16 +117,17 @@ void recordTriangulation(const Event& e) {
     r.compact(Length::counted(COUNT_NEIGHBORS), b.face_slots, b.faces);
     r.run("cap_faces", Length::counted(COUNT_FACES), engine::NoPush{},
           {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
-           b.loose_caps, b.cap_counts, b.large_faces, b.huge_faces});
+           b.loose_caps, b.cap_counts, b.large_faces, b.huge_faces, b.cap_slots});
     r.publish(COUNT_LARGE_FACES, c.neighbors);
     r.publish(COUNT_HUGE_FACES, c.neighbors);
+    r.publish(COUNT_NODES, c.nodes);
     r.runGroups("cap_faces_large", r.groupsOf(COUNT_LARGE_FACES), engine::NoPush{},
                 {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
-                 b.loose_caps, b.cap_counts, b.large_faces, b.nodes, b.rings, b.loops});
+                 b.loose_caps, b.cap_counts, b.large_faces, b.nodes, b.rings, b.loops, b.cap_slots});
     if (c.rare.huge_faces)
         r.runGroups("cap_faces_huge", r.groupsOf(COUNT_HUGE_FACES), engine::NoPush{},
                     {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
-                     b.loose_caps, b.cap_counts, b.huge_faces, b.nodes, b.rings, b.loops});
+                     b.loose_caps, b.cap_counts, b.huge_faces, b.nodes, b.rings, b.loops, b.cap_slots});
     r.scan(Length::counted(COUNT_FACES), b.cap_counts, b.sums, b.cap_offsets,
            {{COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.caps, 0, 0, 0}});
 }

@@ -17,11 +17,11 @@ void recordPieces(const Event& e) {
           {r.counts(), b.polygons, b.polygon_offsets, b.polygon_corners, b.welded, b.pieces, b.sources, b.parents});
     struct CapPush {
         uint32_t triangle_count;
-        float step;
-    } caps = {c.triangles, e.grid.step};
+        float unit, step;
+    } caps = {c.triangles, e.grid.unit(), EventGrid::kStep};
     r.run("list_caps", Length::counted(COUNT_FACES), caps,
           {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources,
-           b.parents, b.shared_points, b.suspects, b.positions});
+           b.parents, b.shared_points, b.suspects, b.positions, b.cap_slots});
     struct SumPush {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
     } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX},
@@ -36,7 +36,7 @@ void recordFlaps(const Event& e) {
     r.clear({b.flap_table});
     struct SumPush {
         uint32_t count, capacity, constant, pad, terms[4], weights[4];
-    } sides = {COUNT_SUSPECT_SIDES, 2 * c.caps, 0, 0, {COUNT_SUSPECTS, NO_INDEX, NO_INDEX, NO_INDEX}, {2, 0, 0, 0}};
+    } sides = {COUNT_SUSPECT_SIDES, c.flap_sides, 0, 0, {COUNT_SUSPECTS, NO_INDEX, NO_INDEX, NO_INDEX}, {2, 0, 0, 0}};
     r.runGroups("publish_sum", 1, sides, {r.counts(), r.args()});
     r.run("find_flaps", Length::counted(COUNT_SUSPECT_SIDES), c.flapTable() - 1,
           {r.counts(), b.suspects, b.pieces, b.flap_table, b.flap_slots});
@@ -46,26 +46,69 @@ void recordFlaps(const Event& e) {
           {r.counts(), b.suspects, b.flap_partners, b.pieces, b.sources, b.parents});
 }
 
-// Stable, by component; the number of passes follows from the most components that the pool admits.
-void recordSorting(const Event& e) {
+// Stable; the number of passes follows from the highest key that the pools admit.
+void recordSort(const Event& e, uint32_t count, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2]) {
     const auto& b = e.b;
     Recorder& r = e.record;
     uint32_t bits = static_cast<uint32_t>(std::bit_width(e.capacity.components));
     uint32_t passes = (bits + RADIX_BITS - 1) / RADIX_BITS;
     passes += passes % 2; // so that the outcome lies where it began
-    const engine::BufferView* keys[2] = {&b.keys, &b.other_keys};
-    const engine::BufferView* values[2] = {&b.values, &b.other_values};
-    r.runGroups("publish_tiles", 1, uint32_t{COUNT_VALID}, {r.counts(), r.args()});
+    r.runGroups("publish_tiles", 1, count, {r.counts(), r.args()});
     for (uint32_t pass = 0; pass < passes; pass++) {
         struct Push {
             uint32_t length_count, shift;
-        } push = {COUNT_VALID, pass * RADIX_BITS};
+        } push = {count, pass * RADIX_BITS};
         uint32_t from = pass % 2, to = 1 - from;
-        r.runGroups("radix_count", r.blocksOf(COUNT_VALID), push, {r.counts(), *keys[from], b.histogram});
+        r.runGroups("radix_count", r.blocksOf(count), push, {r.counts(), keys[from], b.histogram});
         r.scan(Length::counted(COUNT_RADIX), b.histogram, b.sums, b.digit_offsets, {});
-        r.runGroups("radix_scatter", r.blocksOf(COUNT_VALID), push,
-                    {r.counts(), *keys[from], *values[from], b.digit_offsets, *keys[to], *values[to]});
+        r.runGroups("radix_scatter", r.blocksOf(count), push,
+                    {r.counts(), keys[from], values[from], b.digit_offsets, keys[to], values[to]});
     }
+}
+
+constexpr uint32_t kFilmRounds = 3;
+
+void recordJoining(const Event& e, uint32_t first_round) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    for (uint32_t round = first_round; round < first_round + kFilmRounds; round++) {
+        struct Push {
+            uint32_t triangle_count, round;
+            float unit, step;
+        } push = {e.capacity.triangles, round, e.grid.unit(), EventGrid::kStep};
+        r.runGroups("join_films", r.groupsOf(COUNT_FILMS), push,
+                    {r.counts(), b.films, b.component_start, b.values, b.pieces, b.sources, b.parents, b.components,
+                     b.positions, b.records, b.sites, b.cell_offsets, b.neighbors, b.fates});
+    }
+}
+
+// Films join fragments; then those that are left, where thick enough, are fragments, which the rest may join.
+void recordFilms(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    r.runGroups("measure_films", r.groupsOf(COUNT_FILMS), e.grid.unit(),
+                {r.counts(), b.films, b.component_start, b.values, b.pieces, b.positions, b.records});
+    for (const uint32_t last : {0u, 1u}) {
+        recordJoining(e, last * kFilmRounds);
+        struct Push {
+            float least;
+            uint32_t is_last;
+            float step;
+        } push = {last == 0 ? 1.0f / 16 : 1.0f / 1024, last, EventGrid::kStep};
+        r.run("settle_films", Length::counted(COUNT_FILMS), push, {r.counts(), b.films, b.records, b.fates});
+    }
+}
+
+// What belongs to another component's fragment, sorted by that.
+void recordParts(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    r.run("flag_parts", Length::counted(COUNT_COMPONENTS), engine::NoPush{}, {r.counts(), b.fates, b.flags});
+    r.scan(Length::counted(COUNT_COMPONENTS), b.flags, b.sums, b.flag_offsets,
+           {{COUNT_PARTS, NO_INDEX, NO_INDEX, NO_INDEX}, {e.capacity.components, 0, 0, 0}});
+    r.compact(Length::counted(COUNT_COMPONENTS), b.flag_offsets, b.parts);
+    r.run("key_parts", Length::counted(COUNT_PARTS), engine::NoPush{}, {r.counts(), b.parts, b.fates, b.keys});
+    recordSort(e, COUNT_PARTS, {b.keys, b.other_keys}, {b.parts, b.other_parts});
 }
 
 void recordEmitWindow(const Event& e, uint32_t first) {
@@ -98,7 +141,7 @@ void recordIslands(const Event& e) {
            {{COUNT_VALID, COUNT_COMPONENTS, NO_INDEX, NO_INDEX}, {c.pieces, c.components, 0, 0}}, true);
     r.run("key_triangles", Length::counted(COUNT_TRIANGLES), engine::NoPush{},
           {r.counts(), b.flag_offsets, b.parents, b.keys, b.values, b.components});
-    recordSorting(e);
+    recordSort(e, COUNT_VALID, {b.keys, b.other_keys}, {b.values, b.other_values});
     r.run("bound_components", Length::counted(COUNT_VALID), engine::NoPush{}, {r.counts(), b.keys, b.component_start});
     r.commands().endLabel();
 }
@@ -107,14 +150,18 @@ void recordMassProperties(const Event& e) {
     const auto& b = e.b;
     Recorder& r = e.record;
     r.commands().beginLabel("mass_properties");
-    r.runGroups("mass_properties", r.groupsOf(COUNT_COMPONENTS), engine::NoPush{},
+    r.runGroups("mass_properties", r.groupsOf(COUNT_COMPONENTS), e.grid.unit(),
                 {r.counts(), b.component_start, b.values, b.pieces, b.sources, b.positions, b.records});
-    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), e.grid.step, {r.counts(), b.records, b.fates, b.cavities});
+    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), EventGrid::kStep,
+          {r.counts(), b.records, b.fates, b.cavities, b.films});
     r.publish(COUNT_CAVITIES, e.capacity.components);
-    if (e.capacity.rare.cavities)
-        r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), engine::NoPush{},
-                    {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates,
-                     b.ordered_cavities});
+    r.publish(COUNT_FILMS, e.capacity.components);
+    const Capacities::Rare& rare = e.capacity.rare;
+    if (rare.films) recordFilms(e);
+    if (rare.cavities)
+        r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), e.grid.unit(),
+                    {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
+    if (rare.films || rare.cavities) recordParts(e);
     r.commands().endLabel();
 }
 
@@ -127,16 +174,16 @@ void recordEmission(const Event& e) {
           {r.counts(), b.values, b.sources, b.components, b.fates, b.classes, b.parents});
     r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
     r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
-          {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares, b.cavities});
+          {r.counts(), b.component_start, b.class_offsets, b.fates, b.demands, b.shares, b.parts, b.keys});
     r.scan(Length::counted(COUNT_COMPONENTS), b.demands, b.sums, b.demand_offsets,
            {{COUNT_FRAGMENTS, COUNT_EMITTED, NO_INDEX, NO_INDEX}, {c.fragments, c.emitted, 0, 0}}, true);
     r.commands().endLabel();
     r.commands().beginLabel("emit");
     for (uint32_t first = 0; first < c.emitted; first += c.emit_window)
         recordEmitWindow(e, first);
-    r.run("emit_objects", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
+    r.run("emit_objects", Length::counted(COUNT_COMPONENTS), 1 / e.grid.unit(),
           {r.counts(), b.records, b.fates, b.demand_offsets, b.shares, e.scene.draw_commands, e.scene.bounds, e.scene.fragments,
-           e.scene.matrices, e.scene.objects, b.ordered_cavities});
+           e.scene.matrices, e.scene.objects, b.parts, b.keys});
     r.commands().endLabel();
 }
 

@@ -1,0 +1,117 @@
+#include "tests/module/whole_fracture.h"
+
+#include "modules/brittle/export/glb.h"
+#include "modules/brittle/fracture/verify.h"
+#include "modules/brittle/mesh/check.h"
+#include "modules/brittle/mesh/primitives.h"
+#include "tests/engine/test_device.h"
+#include "tests/reference/contract.h"
+#include "tests/reference/model_file.h"
+#include "tests/support/shared_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+
+namespace whole {
+namespace {
+
+using brittle::FractureOptions;
+using brittle::FractureResult;
+
+// Goes before its device does.
+class SharedFracture : public testing::Environment {
+public:
+    brittle::Fracture& get() {
+        if (!fracture_) {
+            auto made = brittle::Fracture::create(engine_test::device());
+            if (!made) ADD_FAILURE() << made.error().message;
+            fracture_ = std::move(*made);
+        }
+        return *fracture_;
+    }
+    void TearDown() override { fracture_.reset(); }
+
+private:
+    std::unique_ptr<brittle::Fracture> fracture_;
+};
+SharedFracture& shared_fracture = *static_cast<SharedFracture*>(testing::AddGlobalTestEnvironment(new SharedFracture));
+
+reference::FragmentFile exported(const brittle::FragmentSet& fragments) {
+    const auto bytes = brittle::encodeGlb(fragments);
+    EXPECT_TRUE(bytes) << bytes.error().message;
+    const std::string path = testing::TempDir() + "brittle_contract.glb";
+    std::ofstream(path, std::ios::binary) << *bytes;
+    return reference::readFragmentFile(path);
+}
+
+void expectCountsAddUp(const FractureResult& result) {
+    const brittle::FractureCounts& c = result.counts;
+    EXPECT_EQ(c.sites_used + c.sites_welded, c.sites_requested);
+    EXPECT_EQ(c.cells_ok + c.cells_empty + c.cells_refused, c.sites_used);
+    EXPECT_EQ(result.sites.size(), c.sites_used);
+    EXPECT_GE(result.fragments.fragments.size(), c.cells_ok);
+}
+
+} // namespace
+
+brittle::Fracture& fracture() { return shared_fracture.get(); }
+
+Model modelFrom(const brittle::ImportedMesh& imported) {
+    auto prepared = brittle::prepareMesh(imported);
+    EXPECT_TRUE(prepared) << prepared.error().message;
+    Model model{std::move(*prepared), {}};
+    for (const brittle::Index3& t : imported.triangles)
+        model.triangles.push_back({imported.positions[t[0]], imported.positions[t[1]], imported.positions[t[2]]});
+    return model;
+}
+
+Model modelFrom(const std::string& name) {
+    if (name.starts_with("builtin:")) {
+        auto made = brittle::makeBuiltin(name.substr(8));
+        EXPECT_TRUE(made) << made.error().message;
+        return modelFrom(*made);
+    }
+    auto imported = brittle::importMesh(support::sharedMesh(name));
+    EXPECT_TRUE(imported) << imported.error().message;
+    Model model = modelFrom(*imported);
+    model.triangles = reference::readModel(support::sharedMesh(name).string());
+    return model;
+}
+
+brittle::ImportedMesh boxOf(const brittle::Double3& lower, const brittle::Double3& upper) {
+    brittle::ImportedMesh box = brittle::makeCube();
+    for (brittle::Double3& p : box.positions)
+        for (size_t k = 0; k < 3; ++k)
+            p[k] = p[k] < 0 ? lower[k] : upper[k];
+    return box;
+}
+
+void expectContract(const Model& model, const FractureOptions& options) {
+    const auto result = fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
+    ASSERT_TRUE(result) << result.error().message;
+    expectCountsAddUp(*result);
+    const brittle::MeshMeasures measures = brittle::inspectMesh(model.prepared.mesh, model.prepared.topology).measures;
+    const auto own = brittle::verifyContract(model.prepared.mesh, measures, result->fragments, result->sites);
+    EXPECT_TRUE(own.holds()) << own.violation();
+    const reference::ContractReport report = reference::checkContract(exported(result->fragments), model.triangles);
+    EXPECT_TRUE(report.holds()) << report.text();
+}
+
+void expectContractOf(const Model& model, std::initializer_list<uint32_t> site_counts) {
+    for (const uint32_t count : site_counts) {
+        SCOPED_TRACE(count);
+        FractureOptions options;
+        options.site_count = count;
+        expectContract(model, options);
+    }
+}
+
+void expectContractAt(const Model& model, const std::vector<brittle::Double3>& sites) {
+    FractureOptions options;
+    options.given_sites = sites;
+    expectContract(model, options);
+}
+
+} // namespace whole
