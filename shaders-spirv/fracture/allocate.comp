@@ -13,7 +13,6 @@ WRITES(5, uvec4, shares);   // outer and inner triangles before this component's
 READS(6, uint, parts);       // by owner
 READS(7, uint, part_owners);
 #include "lib/parts_of.glsl"
-#include "lib/part.glsl"
 
 uvec2 sizeOf(uint c) { return class_offsets[component_start[c + 1u]].xy - class_offsets[component_start[c]].xy; }
 
@@ -21,7 +20,7 @@ void main() {
     uint c = flatIndex();
     if (c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u) return;
     uvec2 fate = fates[c];
-    bool part = isPart(fate.x);
+    bool part = fate.x == FATE_CAVITY;
     uvec2 total = sizeOf(fate.y), before = part ? total : uvec2(0u);
     uint first = firstPartFrom(fate.y), last = firstPartFrom(fate.y + 1u);
     if (last - first > MOST_TURNS) atomicOr(counts[STATUS_BAD_UNION], 1u);

@@ -1,5 +1,4 @@
-// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists, and neither where both sides have
-// come to belong to one fragment.
+// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -22,8 +21,7 @@ void main() {
     bool cap = (sources[t] & INNER_BIT) != 0u;
     uint behind = cap ? pieceBehind(t, triangle_count + counts[COUNT_FAN_TRIANGLES]) : t;
     uint mate = components[behind];
-    uvec2 own = fates[components[t]], other = fates[mate != NO_INDEX ? mate : components[t]];
-    bool faced = mate != NO_INDEX && other.x != FATE_DISSOLVED;
-    bool stays = own.x != FATE_DISSOLVED, within = cap && faced && own.y == other.y;
-    classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced && !within ? 1u : 0u, 0u, 0u);
+    bool faced = mate != NO_INDEX && fates[mate != NO_INDEX ? mate : components[t]].x != FATE_DISSOLVED;
+    bool stays = fates[components[t]].x != FATE_DISSOLVED;
+    classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced ? 1u : 0u, 0u, 0u);
 }

@@ -1,4 +1,4 @@
-// Draw commands (outer, inner), bounds and records of the fragments, with all that is part of them: a cavity is taken off.
+// Draw commands (outer, inner), bounds and records of the fragments, less their cavities.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -40,8 +40,6 @@ FragmentRecord withParts(uint c, FragmentRecord r) {
         FragmentRecord part = records[parts[k]];
         addTo(measure, lost_measure, part.measure);
         addTo(moment, lost_moment, part.measure.x * part.balance);
-        r.low = min(r.low, part.low);
-        r.high = max(r.high, part.high);
     }
     r.balance = measure.x != r.measure.x ? moment / measure.x : r.balance;
     r.measure = measure;

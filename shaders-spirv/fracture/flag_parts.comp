@@ -1,8 +1,7 @@
-// Components that are parts of another's fragment.
+// Components that are parts of another's fragment: cavities.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
-#include "lib/part.glsl"
 
 FLAT_KERNEL;
 READS(0, uint, counts);
@@ -12,5 +11,5 @@ WRITES(2, uint, flags);
 void main() {
     uint c = flatIndex();
     if (c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u) return;
-    flags[c] = isPart(fates[c].x) ? 1u : 0u;
+    flags[c] = fates[c].x == FATE_CAVITY ? 1u : 0u;
 }

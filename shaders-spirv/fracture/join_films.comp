@@ -1,5 +1,5 @@
-// Films become part of a piece that they lie against, so that no volume is lost: of the piece behind their largest cap, if
-// they lie within its cell but for a few grid steps, else of the one behind the next largest. Runs in rounds, a workgroup a
+// Finds hosts for films, so that no volume is lost: a film goes to the piece behind its largest cap, if it
+// lies within that cell but for a few grid steps, else of the one behind the next largest. Runs in rounds, a workgroup a
 // film: only pieces whose fate was known before the round take films up, so that chains of films end at a fragment.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -78,8 +78,7 @@ void main() {
     }
     if (lane == 0u) {
         if (best == NO_INDEX || around_count > MOST_AROUND) atomicAdd(counts[STATUS_BAD_UNION], 1u);
-        // What is around it may itself have become a part of another piece, or nothing.
-        uvec2 around_fate = fates[best == NO_INDEX ? cavity : best];
-        fates[cavity] = uvec2(around_fate.x == FATE_DISSOLVED ? FATE_DISSOLVED : FATE_CAVITY, around_fate.y);
+        bool gone = best != NO_INDEX && fates[best].x == FATE_DISSOLVED;
+        fates[cavity] = uvec2(gone ? FATE_DISSOLVED : FATE_CAVITY, best == NO_INDEX ? cavity : best);
     }
 }

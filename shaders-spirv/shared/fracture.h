@@ -48,8 +48,10 @@
 #define COUNT_SUSPECTS 33         /* caps that may be one side of a flap */
 #define COUNT_SUSPECT_SIDES 34
 #define COUNT_FILMS 35
-#define COUNT_PARTS 36            /* cavities and joined films, each part of another component's fragment */
-#define COUNT_TOTAL 37
+#define COUNT_PARTS 36            /* cavities, each part of another component's fragment */
+#define COUNT_AGAIN 37            /* candidates, where films have been merged and islands are to be found anew; else 0 */
+#define COUNT_SORT 38             /* triangles to be sorted by component */
+#define COUNT_TOTAL 39
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL
@@ -115,7 +117,7 @@
 #define FATE_DISSOLVED 1u
 #define FATE_CAVITY 2u
 #define FATE_FILM 3u   /* too thin, and not decided yet */
-#define FATE_JOINED 4u /* and the round; a film that became part of a fragment */
+#define FATE_JOINED 4u /* and the round: a film that has found its host */
 
 #define RADIX_BITS 4
 #define RADIX_TILE 1024

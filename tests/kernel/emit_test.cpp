@@ -153,9 +153,7 @@ std::map<uint32_t, Sides> sidesOf(const DeviceEvent& event) {
         for (size_t k = 0; k < 3; ++k)
             std::copy_n(positions[pieces[t][k]].begin(), 3, corners[k].begin());
         Sides& side = sides[fates[components[t]][1]];
-        const uint32_t behind = caps + ((t - caps) ^ 1);
-        const bool faced = t >= caps && stays(behind);
-        if (faced && fates[components[behind]][1] == fates[components[t]][1]) continue; // within one fragment
+        const bool faced = t >= caps && stays(caps + ((t - caps) ^ 1));
         (faced ? side.inner : side.outer).push_back(corners);
     }
     return sides;

@@ -105,9 +105,11 @@ std::optional<std::string> refusal(const fs::path& path, std::optional<Model>& m
     return {};
 }
 
-class LongEveryMesh : public testing::TestWithParam<Candidate> {};
+void PrintTo(const Candidate& candidate, std::ostream* out) { *out << candidate.path; }
 
-TEST_P(LongEveryMesh, KeepsTheContract) {
+class EveryMesh : public testing::TestWithParam<Candidate> {};
+
+TEST_P(EveryMesh, KeepsTheContract) {
     std::optional<Model> model;
     const auto refused = refusal(GetParam().path, model);
     if (refused) {
@@ -135,8 +137,8 @@ std::string nameOf(const testing::TestParamInfo<Candidate>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LongEveryMesh, testing::ValuesIn(allCandidates()), nameOf);
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(LongEveryMesh);
+INSTANTIATE_TEST_SUITE_P(Long, EveryMesh, testing::ValuesIn(allCandidates()), nameOf);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EveryMesh);
 
 // So that a check that refuses everything, or a list that came out empty, is not taken for success.
 TEST(LongEveryMeshList, HoldsWhatWasFound) {

@@ -254,6 +254,53 @@ TEST(FractureScale, ChangesNoMeasure) {
     }
 }
 
+// The same ties on real models: sites on their corners, in lattices over their boxes, and with images in their faces.
+class TiesOnModels : public testing::TestWithParam<const char*> {};
+
+TEST_P(TiesOnModels, HoldTheContract) {
+    SKIP_WITHOUT_MESHES();
+    const Model model = modelFrom(GetParam());
+    const reference::Bounds box = reference::boundsOf(model.triangles);
+    {
+        SCOPED_TRACE("sites on corners");
+        expectContractAt(model, verticesOf(model, 1000));
+    }
+    for (const int steps : {2, 5, 10}) {
+        SCOPED_TRACE(std::to_string(steps) + " lattice steps");
+        Sites lattice = latticeOver(1, 2.0 / steps);
+        for (Double3& s : lattice)
+            for (size_t k = 0; k < 3; ++k)
+                s[k] = .5 * (box.lower[k] + box.upper[k]) + .5 * s[k] * (box.upper[k] - box.lower[k]);
+        expectContractAt(model, lattice);
+    }
+    for (const unsigned seed : {1u, 2u}) {
+        SCOPED_TRACE("images in faces, seed " + std::to_string(seed));
+        std::mt19937 random(seed);
+        reference::Triangles faces;
+        for (int k = 0; k < 60; ++k)
+            faces.push_back(model.triangles[random() % model.triangles.size()]);
+        std::erase_if(faces, [](const reference::Triangle& t) {
+            return reference::length(reference::cross(reference::operator-(t[1], t[0]), reference::operator-(t[2], t[0]))) == 0;
+        });
+        expectContractAt(model, withImages(sitesIn(box.lower, box.upper, 8, seed), faces));
+    }
+}
+
+std::string nameOf(const testing::TestParamInfo<const char*>& info) {
+    std::string name = info.param;
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Long, TiesOnModels,
+                         testing::Values("ico4.obj", "spot_low_resolution.obj", "bunny_hr.obj", "armadillo.obj", "fandisk.off",
+                                         "gearwheel.bin.stl", "1002_tray_bottom.STL", "thingi10k-472042.stl",
+                                         "thingi10k-908460.stl", "couplingdown.off", "torus.obj", "trefoil.obj", "cheese.off",
+                                         "sword.obj", "goblet-Vase.stl", "hundred_cubes.obj", "thingi10k-99865.stl",
+                                         "capsule.obj", "ellipe0.003.off", "utah_teapot.stl"),
+                         nameOf);
+
 // The paper's Fig. 10: a cell that lies wholly outside of the model, and one that pokes through its surface.
 TEST(FractureOutside, CellsWithoutAnyPieceAreEmpty) {
     const Model cube = modelFrom("builtin:cube");

@@ -7,10 +7,14 @@
 #include "tests/engine/test_device.h"
 #include "tests/reference/contract.h"
 #include "tests/reference/model_file.h"
+#include "tests/support/shapes.h"
 #include "tests/support/shared_meshes.h"
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -41,9 +45,11 @@ SharedFracture& shared_fracture = *static_cast<SharedFracture*>(testing::AddGlob
 reference::FragmentFile exported(const brittle::FragmentSet& fragments) {
     const auto bytes = brittle::encodeGlb(fragments);
     EXPECT_TRUE(bytes) << bytes.error().message;
-    const std::string path = testing::TempDir() + "brittle_contract.glb";
+    const std::string path = testing::TempDir() + "brittle_contract_" + std::to_string(getpid()) + ".glb";
     std::ofstream(path, std::ios::binary) << *bytes;
-    return reference::readFragmentFile(path);
+    auto file = reference::readFragmentFile(path);
+    std::filesystem::remove(path);
+    return file;
 }
 
 void expectCountsAddUp(const FractureResult& result) {
@@ -52,6 +58,11 @@ void expectCountsAddUp(const FractureResult& result) {
     EXPECT_EQ(c.cells_ok + c.cells_empty + c.cells_refused, c.sites_used);
     EXPECT_EQ(result.sites.size(), c.sites_used);
     EXPECT_GE(result.fragments.fragments.size(), c.cells_ok);
+}
+
+// A model that is inside out is taken for the solid that its surface encloses.
+void turnOutward(reference::Triangles& triangles) {
+    if (reference::volumeOf(triangles) < 0) triangles = support::turnedOver(triangles);
 }
 
 } // namespace
@@ -64,6 +75,7 @@ Model modelFrom(const brittle::ImportedMesh& imported) {
     Model model{std::move(*prepared), {}};
     for (const brittle::Index3& t : imported.triangles)
         model.triangles.push_back({imported.positions[t[0]], imported.positions[t[1]], imported.positions[t[2]]});
+    turnOutward(model.triangles);
     return model;
 }
 
@@ -77,6 +89,7 @@ Model modelFrom(const std::string& name) {
     EXPECT_TRUE(imported) << imported.error().message;
     Model model = modelFrom(*imported);
     model.triangles = reference::readModel(support::sharedMesh(name).string());
+    turnOutward(model.triangles);
     return model;
 }
 

@@ -66,6 +66,32 @@ void recordSort(const Event& e, uint32_t count, const engine::BufferView (&keys)
     }
 }
 
+// Triangles of one cell that hang together; `count` of them, or none at all.
+void recordUnion(const Event& e, uint32_t count) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    Recorder& r = e.record;
+    r.clear({b.edge_table});
+    uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
+    r.run("unite_triangles", Length::counted(count), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
+    r.run("flag_components", Length::counted(count), engine::NoPush{}, {r.counts(), b.pieces, b.parents, b.flags});
+    r.scan(Length::counted(count), b.flags, b.sums, b.flag_offsets,
+           {{COUNT_VALID, COUNT_COMPONENTS, NO_INDEX, NO_INDEX}, {c.pieces, c.components, 0, 0}}, true);
+    r.run("key_triangles", Length::counted(count), engine::NoPush{},
+          {r.counts(), b.flag_offsets, b.parents, b.keys, b.values, b.components});
+}
+
+void recordFates(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    r.runGroups("mass_properties", r.groupsOf(COUNT_COMPONENTS), e.grid.unit(),
+                {r.counts(), b.component_start, b.values, b.pieces, b.sources, b.positions, b.records});
+    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), EventGrid::kStep,
+          {r.counts(), b.records, b.fates, b.cavities, b.films});
+    r.publish(COUNT_CAVITIES, e.capacity.components);
+    r.publish(COUNT_FILMS, e.capacity.components);
+}
+
 constexpr uint32_t kFilmRounds = 3;
 
 void recordJoining(const Event& e, uint32_t first_round) {
@@ -82,21 +108,45 @@ void recordJoining(const Event& e, uint32_t first_round) {
     }
 }
 
-// Films join fragments; then those that are left, where thick enough, are fragments, which the rest may join.
-void recordFilms(const Event& e) {
+// Films in which there is so much of what a film may hold at most are fragments; in the end the rest is dissolved.
+void recordSettling(const Event& e, float least, bool is_last) {
     const auto& b = e.b;
     Recorder& r = e.record;
     r.runGroups("measure_films", r.groupsOf(COUNT_FILMS), e.grid.unit(),
                 {r.counts(), b.films, b.component_start, b.values, b.pieces, b.positions, b.records});
-    for (const uint32_t last : {0u, 1u}) {
-        recordJoining(e, last * kFilmRounds);
-        struct Push {
-            float least;
-            uint32_t is_last;
-            float step;
-        } push = {last == 0 ? 1.0f / 16 : 1.0f / 1024, last, EventGrid::kStep};
-        r.run("settle_films", Length::counted(COUNT_FILMS), push, {r.counts(), b.films, b.records, b.fates});
-    }
+    struct Push {
+        float least;
+        uint32_t is_last;
+        float step;
+    } push = {least, is_last ? 1u : 0u, EventGrid::kStep};
+    r.run("settle_films", Length::counted(COUNT_FILMS), push, {r.counts(), b.films, b.records, b.fates});
+}
+
+// Where films were merged, what is left is united and measured anew; otherwise these kernels have nothing to do.
+void recordReunion(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    struct IfPush {
+        uint32_t count, source, condition;
+    } again = {COUNT_AGAIN, COUNT_TRIANGLES, COUNT_FILMS}, sort = {COUNT_SORT, COUNT_VALID, COUNT_AGAIN};
+    r.runGroups("publish_if", 1, again, {r.counts(), r.args()});
+    r.run("merge_films", Length::counted(COUNT_AGAIN), e.capacity.triangles,
+          {r.counts(), b.pieces, b.sources, b.parents, b.components, b.fates, b.records});
+    recordUnion(e, COUNT_AGAIN);
+    r.runGroups("publish_if", 1, sort, {r.counts(), r.args()});
+    recordSort(e, COUNT_SORT, {b.keys, b.other_keys}, {b.values, b.other_values});
+    r.run("bound_components", Length::counted(COUNT_SORT), engine::NoPush{}, {r.counts(), b.keys, b.component_start});
+    r.runGroups("forget_fates", 1, engine::NoPush{}, {r.counts()});
+    recordFates(e);
+}
+
+// Films join fragments; then those that are left, where thick enough, are fragments, which the rest may join.
+void recordFilms(const Event& e) {
+    recordJoining(e, 0);
+    recordSettling(e, 1.0f / 16, false);
+    recordJoining(e, kFilmRounds);
+    recordReunion(e);
+    recordSettling(e, 1.0f / 1024, true);
 }
 
 // What belongs to another component's fragment, sorted by that.
@@ -128,19 +178,11 @@ void recordEmitWindow(const Event& e, uint32_t first) {
 
 void recordIslands(const Event& e) {
     const auto& b = e.b;
-    const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.commands().beginLabel("split_islands");
-    r.clear({b.edge_table});
     recordPieces(e);
-    if (c.rare.flaps) recordFlaps(e);
-    uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
-    r.run("unite_triangles", Length::counted(COUNT_TRIANGLES), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
-    r.run("flag_components", Length::counted(COUNT_TRIANGLES), engine::NoPush{}, {r.counts(), b.pieces, b.parents, b.flags});
-    r.scan(Length::counted(COUNT_TRIANGLES), b.flags, b.sums, b.flag_offsets,
-           {{COUNT_VALID, COUNT_COMPONENTS, NO_INDEX, NO_INDEX}, {c.pieces, c.components, 0, 0}}, true);
-    r.run("key_triangles", Length::counted(COUNT_TRIANGLES), engine::NoPush{},
-          {r.counts(), b.flag_offsets, b.parents, b.keys, b.values, b.components});
+    if (e.capacity.rare.flaps) recordFlaps(e);
+    recordUnion(e, COUNT_TRIANGLES);
     recordSort(e, COUNT_VALID, {b.keys, b.other_keys}, {b.values, b.other_values});
     r.run("bound_components", Length::counted(COUNT_VALID), engine::NoPush{}, {r.counts(), b.keys, b.component_start});
     r.commands().endLabel();
@@ -150,18 +192,14 @@ void recordMassProperties(const Event& e) {
     const auto& b = e.b;
     Recorder& r = e.record;
     r.commands().beginLabel("mass_properties");
-    r.runGroups("mass_properties", r.groupsOf(COUNT_COMPONENTS), e.grid.unit(),
-                {r.counts(), b.component_start, b.values, b.pieces, b.sources, b.positions, b.records});
-    r.run("decide_fates", Length::counted(COUNT_COMPONENTS), EventGrid::kStep,
-          {r.counts(), b.records, b.fates, b.cavities, b.films});
-    r.publish(COUNT_CAVITIES, e.capacity.components);
-    r.publish(COUNT_FILMS, e.capacity.components);
+    recordFates(e);
     const Capacities::Rare& rare = e.capacity.rare;
     if (rare.films) recordFilms(e);
-    if (rare.cavities)
+    if (rare.cavities) {
         r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), e.grid.unit(),
                     {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
-    if (rare.films || rare.cavities) recordParts(e);
+        recordParts(e);
+    }
     r.commands().endLabel();
 }
 
