@@ -40,6 +40,8 @@ Value sumOfEarlierBlocks(uint block, uint lane) {
 
 void main() {
     uint n = length_count == NO_INDEX ? length : counts[length_count];
+    // What is added up then was never written, and would ask for pools of any size.
+    bool failed = counts[STATUS_FAILED] != 0u;
     uint lane = gl_LocalInvocationID.x, block = flatGroup();
     uint first = block * SCAN_BLOCK + lane * (SCAN_BLOCK / GROUP_SIZE);
     Value before = sumOfEarlierBlocks(block, lane);
@@ -63,10 +65,10 @@ void main() {
             offsets[n] = running;
 #if CHANNELS == 4
             for (uint c = 0u; c < ROLLED(4); c++) {
-                if (published[c] != NO_INDEX) publishCount(published[c], running[c], capacity[c]);
+                if (published[c] != NO_INDEX) publishCount(published[c], failed ? 0u : running[c], capacity[c]);
             }
 #else
-            if (published.x != NO_INDEX) publishCount(published.x, running, capacity.x);
+            if (published.x != NO_INDEX) publishCount(published.x, failed ? 0u : running, capacity.x);
 #endif
         }
     }

@@ -25,7 +25,8 @@ CapBuffers buffersOf(const std::vector<CapPolygon>& polygons, const CapBasis& ba
         for (const CapPoint& p : polygon.points) {
             std::array<int64_t, 3> place;
             for (size_t k = 0; k < 3; ++k)
-                place[k] = ((int64_t{1} << 23) + int64_t{p[0]} * basis.x[k] + int64_t{p[1]} * basis.y[k]) * (1 << 24);
+                place[k] = (int64_t{1} << 47) +
+                           (int64_t{p[0]} * basis.x[k] + int64_t{p[1]} * basis.y[k]) * ((1 << 24) / polygon.per_step);
             all.points.push_back(place);
         }
         for (const Word2& s : polygon.segments)

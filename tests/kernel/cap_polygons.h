@@ -20,7 +20,8 @@ struct CapPolygon {
     std::vector<Word2> segments;     // between points
     std::optional<size_t> triangles; // how many there must be
     bool may_be_flat = false;        // triangles without area are no mistake
-    int64_t crosses = 0;             // itself, by so many steps: triangles may be turned over by as much
+    int32_t per_step = 1;            // points are in such parts of a grid step
+    int64_t crosses = 0;             // itself, by so many of them: triangles may be turned over by as much
 };
 CapPolygon polygonOf(const std::vector<CapLoop>& loops);
 

@@ -148,13 +148,13 @@ void expectNothingLost(const Plate& plate, const FractureOptions& options) {
     expectWhole(outcome);
 }
 
-TEST(Films, OfImagesInTheFacesOfAPlateJoinThePiecesUnderThem) {
+TEST(SmallFilms, OfImagesInTheFacesOfAPlateJoinThePiecesUnderThem) {
     for (const Plate& plate : {Plate{.2, true}, Plate{1e-2, true}, Plate{1e-5, false}})
         expectNothingLost(plate, plate.mirrored(40));
 }
 
 // All of it is thinner than a film may be: pieces with something in them are fragments nevertheless.
-TEST(Films, ThatAreAllThereIsAreFragments) {
+TEST(SmallFilms, ThatAreAllThereIsAreFragments) {
     FractureOptions options{0, 0, {{-.3, 0, 0}, {.1, .2, 0}, {.2, -.4, 0}}};
     const Plate plate{1.5e-7, false};
     expectNothingLost(plate, options);

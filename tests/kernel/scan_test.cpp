@@ -114,5 +114,22 @@ TEST(SmallScan, ReportsAPoolThatIsTooSmall) {
     }
 }
 
+// Several at a time may be too small; but what kernels left unwritten after a failure asks for nothing.
+TEST(SmallScan, AsksForNoRoomOnceTheEventHasFailed) {
+    for (const uint32_t channels : {1u, 4u})
+        for (const bool failed : {false, true}) {
+            Counts counts;
+            counts[STATUS_FAILED] = failed ? FAILED_CAPACITY : 0;
+            scan(std::vector<uint32_t>(1000 * channels, 2), channels, counts,
+                 {.length = 1000,
+                  .length_count = NO_INDEX,
+                  .published = {7, 8, NO_INDEX, NO_INDEX},
+                  .capacity = {10, 20, 0, 0}});
+            EXPECT_EQ(counts[STATUS_NEEDED + 7], failed ? 0u : 2000u);
+            EXPECT_EQ(counts[STATUS_NEEDED + 8], failed || channels == 1 ? 0u : 2000u);
+            EXPECT_EQ(counts[7], 0u);
+        }
+}
+
 } // namespace
 } // namespace kernel_test
