@@ -9,7 +9,7 @@
 #define MOST_HOSTS 6
 #define STEPS_OUTSIDE 8.0
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, uint, films);
 READS(2, uint, component_start);
 READS(3, uint, order);
@@ -116,5 +116,8 @@ void main() {
         found = within ? host : NO_INDEX;
         if (host != NO_INDEX) tried[tries++] = host;
     }
-    if (lane == 0u && found != NO_INDEX) fates[c] = uvec2(FATE_JOINED + round, found);
+    if (lane == 0u && found != NO_INDEX) {
+        fates[c] = uvec2(FATE_JOINED + round, found);
+        atomicAdd(counts[STATUS_JOINED], 1u);
+    }
 }

@@ -73,6 +73,7 @@
 #define STATUS_CROWDED (2 * COUNT_TOTAL + 16)  /* sites in the fullest bin, where there are too many to be ordered */
 #define STATUS_TOO_LONG (2 * COUNT_TOTAL + 17) /* edges and triangles that meet more cells than one lane can walk */
 #define STATUS_SIDES (2 * COUNT_TOTAL + 18) /* of the polygon that had too many */
+#define STATUS_JOINED (2 * COUNT_TOTAL + 19) /* films that have found a host */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u

@@ -76,6 +76,7 @@ void expectAllocated(const Demand& demand) {
     const auto owner = [&](uint32_t c) { return demand.fates[c][1]; };
     std::stable_sort(hollow.begin(), hollow.end(), [&](uint32_t a, uint32_t b) { return owner(a) < owner(b); });
     std::vector<uint32_t> part_owners;
+    part_owners.reserve(hollow.size());
     for (const uint32_t c : hollow)
         part_owners.push_back(owner(c));
     const engine::Buffer hollows = bufferOf(hollow), owners = bufferOf(part_owners), first = bufferOf(start),

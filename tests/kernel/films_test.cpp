@@ -141,6 +141,7 @@ void expectNothingLost(const Plate& plate, const FractureOptions& options) {
     const Outcome outcome{event};
     EXPECT_GT(event[COUNT_AGAIN], 0u) << "there were no films";
     EXPECT_EQ(event[STATUS_DISSOLVED], 0u);
+    EXPECT_EQ(event[STATUS_JOINED] > 0, plate.thickness > 1e-6);
     for (const Word2& fate : outcome.fates)
         EXPECT_EQ(fate[0], FATE_FRAGMENT);
     expectMeasured(outcome);

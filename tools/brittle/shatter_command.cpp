@@ -36,6 +36,7 @@ nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
          {{"ok", counts.cells_ok},
           {"empty", counts.cells_empty},
           {"merged", counts.cells_merged},
+          {"dissolved", counts.pieces_dissolved},
           {"refused", counts.cells_refused}}},
         {"fragments", outcome.result.fragments.fragments.size()},
         {"volume_error", outcome.contract.volume_error},

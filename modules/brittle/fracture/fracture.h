@@ -29,7 +29,9 @@ struct FractureOptions {
 
 struct FractureCounts {
     uint32_t sites_requested = 0, sites_used = 0, sites_welded = 0;
-    uint32_t cells_ok = 0, cells_empty = 0, cells_merged = 0, cells_refused = 0;
+    uint32_t cells_ok = 0, cells_empty = 0, cells_refused = 0;
+    uint32_t cells_merged = 0;     // parts of cells that are too thin to stand alone: part of a neighbor's fragment
+    uint32_t pieces_dissolved = 0; // as thin, without a neighbor that they lie against
     uint32_t exact_total = 0, exact_redone = 0; // cells, and those done again by the exact kernel
 };
 

@@ -59,7 +59,8 @@ void fillCounts(const std::vector<uint32_t>& status, const FractureOptions& opti
     c.sites_requested = options.given_sites.empty() ? options.site_count : static_cast<uint32_t>(options.given_sites.size());
     c.sites_used = status[COUNT_SITES];
     c.sites_welded = status[STATUS_WELDED];
-    c.cells_merged = status[STATUS_DISSOLVED];
+    c.cells_merged = status[STATUS_JOINED];
+    c.pieces_dissolved = status[STATUS_DISSOLVED];
     c.cells_refused = status[STATUS_BAD_CELLS];
     c.exact_total = status[COUNT_SITES];
     c.exact_redone = status[COUNT_EXACT_SMALL];
