@@ -1,5 +1,6 @@
 // Triangulates the caps that are one simple loop of few corners, a face a lane: most are. The rest goes to
-// cap_faces_large: several loops, holes, touching corners, long loops, or no ear to be found.
+// cap_faces_large: several loops, holes, touching corners, long loops, no ear to be found, or an outline that
+// turns back on itself.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -89,7 +90,9 @@ void main() {
     uint made = 0u, reflex = 0u, left = simple ? size : 0u, corner = start, failures = 0u;
     for (uint k = 0u; k < left; k++) {
         if (turn(place[previous_of[k]], place[k], place[next_of[k]]) <= 0) reflex |= 1u << k;
+        simple = simple && !isSpike(place[previous_of[k]], place[k], place[next_of[k]]);
     }
+    left = simple ? left : 0u;
     for (uint step = 0u; step < SMALL * SMALL && left > 2u && failures <= left; step++) {
         if (left == 3u || isEar(corner, reflex)) {
             uint a = previous_of[corner], c = next_of[corner];

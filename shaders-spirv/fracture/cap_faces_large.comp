@@ -338,11 +338,6 @@ void bridgeHoles(uint lane) {
     }
 }
 
-// Outlines may cross themselves by what rounding has moved their corners, or the surface touches itself: two grid steps.
-const int64_t kTouch = int64_t(128);
-
-int64_t reach(ivec2 a, ivec2 b) { return int64_t(abs(b.x - a.x)) + int64_t(abs(b.y - a.y)); }
-
 // Whether x lies left of a b by more than rounding explains.
 bool clearlyLeft(ivec2 a, ivec2 b, ivec2 x) { return signOf(doubleArea(a, b, x) - kTouch * reach(a, b)) > 0; }
 
@@ -360,13 +355,6 @@ bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c) {
     ivec2 from = x == a ? c : (x == b ? a : b), to = x == a ? b : (x == b ? c : a);
     ivec2 p = at(previousOf(q)), n = at(nextOf(q));
     return (turn(from, x, p) > 0 && turn(x, to, p) > 0) || (turn(from, x, n) > 0 && turn(x, to, n) > 0);
-}
-
-// A tip where the outline turns back on itself, or stands still: nothing lies between its edges. Spikes go before ears: where
-// a hole fills its outline, all of it is spikes, one after the other, while its ears seem to be there twice.
-bool isSpike(ivec2 a, ivec2 b, ivec2 c) {
-    ivec2 u = a - b, w = c - b;
-    return turn(a, b, c) == 0 && (signOf(int64_t(u.x) * int64_t(w.x) + int64_t(u.y) * int64_t(w.y)) > 0 || u == ivec2(0) || w == ivec2(0));
 }
 
 uint priorityOf(uint k) { return (k * 0x9e3779b1u) ^ (k >> 7); }
@@ -434,6 +422,8 @@ void main() {
             uint p = candidate ? previousOf(k) : 0u, s = candidate ? nextOf(k) : 0u;
             ivec2 a = at(p), b = at(k), c = at(s);
             int size = turn(a, b, c);
+            // Spikes go before ears: where a hole fills its outline, or runs along it, all of that is spikes, one after the
+            // other, while its ears seem to be there twice.
             bool spikes = spike_total != 0u;
             bool nearly = phase == 2u && isEarButForRounding(a, b, c);
             bool test = candidate && (size > 0 || nearly) && phase < 3u && budget > 0u && !spikes;

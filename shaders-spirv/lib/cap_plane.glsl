@@ -29,3 +29,17 @@ int turn(ivec2 a, ivec2 b, ivec2 c) { return signOf(doubleArea(a, b, c)); }
 
 // Whether x lies in the closed triangle a, b, c, which turns left. No loop: callers count their turns.
 bool inTriangle(ivec2 a, ivec2 b, ivec2 c, ivec2 x) { return turn(a, b, x) >= 0 && turn(b, c, x) >= 0 && turn(c, a, x) >= 0; }
+
+// Corners are rounded, so that outlines may cross themselves, or the surface touches itself: two grid steps.
+const int64_t kTouch = int64_t(128);
+
+int64_t reach(ivec2 a, ivec2 b) { return int64_t(abs(b.x - a.x)) + int64_t(abs(b.y - a.y)); }
+
+// Whether the outline turns back on itself at b, or stands still, but for rounding: nothing lies between its edges.
+bool isSpike(ivec2 a, ivec2 b, ivec2 c) {
+    ivec2 u = a - b, w = c - b;
+    int64_t area = doubleArea(a, b, c), longer = max(reach(a, b), reach(b, c));
+    bool thin = signOf((isNegative(area) ? -area : area) - kTouch * longer) <= 0;
+    bool back = signOf(int64_t(u.x) * int64_t(w.x) + int64_t(u.y) * int64_t(w.y)) > 0;
+    return (thin && back) || u == ivec2(0) || w == ivec2(0);
+}
