@@ -346,10 +346,14 @@ bool isEarButForRounding(ivec2 a, ivec2 b, ivec2 c) { return signOf(doubleArea(a
 
 bool clearlyIn(ivec2 a, ivec2 b, ivec2 c, ivec2 x) { return clearlyLeft(a, b, x) && clearlyLeft(b, c, x) && clearlyLeft(c, a, x); }
 
-bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c) {
+// Whether x lies in the triangle or touches it but for rounding. Ears that nothing touches go first: where the outline touches
+// itself, a corner may lie just outside of an ear that has the rest of the outline behind it.
+bool touches(ivec2 a, ivec2 b, ivec2 c, ivec2 x) { return !clearlyLeft(b, a, x) && !clearlyLeft(c, b, x) && !clearlyLeft(a, c, x); }
+
+bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c, bool touching) {
     ivec2 x = at(q);
     if (x != a && x != b && x != c) {
-        return inTriangle(a, b, c, x);
+        return touching ? touches(a, b, c, x) : inTriangle(a, b, c, x);
     }
     // A second visit of one of the ear's corners blocks only if its own edges enter the ear.
     ivec2 from = x == a ? c : (x == b ? a : b), to = x == a ? b : (x == b ? c : a);
@@ -425,13 +429,13 @@ void main() {
             // Spikes go before ears: where a hole fills its outline, or runs along it, all of that is spikes, one after the
             // other, while its ears seem to be there twice.
             bool spikes = spike_total != 0u;
-            bool nearly = phase == 2u && isEarButForRounding(a, b, c);
-            bool test = candidate && (size > 0 || nearly) && phase < 3u && budget > 0u && !spikes;
-            bool ear = candidate && (spikes ? isSpike(a, b, c) : size > 0 || nearly || (phase >= 1u && size == 0) || phase >= 4u);
+            bool nearly = phase == 3u && isEarButForRounding(a, b, c);
+            bool test = candidate && (size > 0 || nearly) && phase < 4u && budget > 0u && !spikes;
+            bool ear = candidate && (spikes ? isSpike(a, b, c) : size > 0 || nearly || (phase >= 2u && size == 0) || phase >= 5u);
             for (uint r = 0u; r < reflex_total && test && ear; r++) {
                 uint q = reflex_list[r];
                 bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;
-                ear = !(other && (phase < 2u ? entersEar(q, a, b, c) : clearlyIn(a, b, c, at(q))));
+                ear = !(other && (phase < 3u ? entersEar(q, a, b, c, phase == 0u) : clearlyIn(a, b, c, at(q))));
                 budget -= min(budget, 1u);
             }
             if (ear) nodes[base + k].w = EAR;
@@ -460,7 +464,7 @@ void main() {
         }
         sync();
         made += cleared;
-        phase = cleared == 0u ? min(phase + 1u, 4u) : 0u;
+        phase = cleared == 0u ? min(phase + 1u, 5u) : 0u;
         barrier();
     }
     if (lane == 0u && n > 0u) cap_counts[index] = made;

@@ -169,6 +169,25 @@ TEST(SmallCaps, OfSlitsBetweenManyCorners) {
     expectCappedButForRounding(polygonOf({few}));
 }
 
+// Found in the same block: one side passes a corner of the other by a fraction of a step, here or there.
+TEST(SmallCaps, OfAnOutlineThatTouchesItself) {
+    const CapLoop found = {
+        {10857045, -108689816}, {26821336, -117917000}, {57150388, -81266664}, {57640176, -76065976}, {57775900, -74624808},
+        {58358168, -70490856},  {52554372, -66535336},  {51940172, -66116712}, {47412900, -60546472}, {46508572, -59433768},
+        {43607080, -52476392},  {43116104, -51299080},  {42918148, -49773736}, {41912180, -42021960}, {42054392, -40613800},
+        {42929728, -31945960},  {43072528, -31388072},  {44262188, -26740456}, {46000660, -21850856}, {46134364, -21474824},
+        {48398904, -16480520},  {48521924, -16209192},  {48661868, -15956104}, {51400584, -11003720}, {51598396, -10724296},
+        {57206880, -2802600},   {57726864, -1074312},   {57830356, -814728},   {62473828, 7925368},   {63314432, 9078424},
+        {69251112, 16317112},   {74653608, 20787608},   {76676936, 29899320},  {78175912, 36341624},  {83648384, 57290936},
+        {92004600, 85899352},   {91395480, 85899352},   {89565840, 85899352}};
+    for (int32_t shift = -96; shift <= 96; shift += 8) {
+        SCOPED_TRACE(shift);
+        CapLoop loop = found;
+        loop[19][0] += shift;
+        expectCappedButForRounding(polygonOf({loop}));
+    }
+}
+
 TEST(SmallCaps, OfSeveralLoops) {
     const std::vector<CapLoop> squares = thirtySquares();
     expectCapped({polygonOf({squares[0], squares[1]}), polygonOf(squares), polygonOf({kEll, squareAt(25, 20, 9)})});
