@@ -19,9 +19,9 @@ namespace brittle {
 struct FractureOptions {
     uint32_t site_count = 100; // asked of the pattern; ignored where sites are given
     uint64_t seed = 1;
-    Pattern pattern = Pattern::Uniform;
-    Impact impact;                    // of the patterns that have one
     std::vector<Double3> given_sites; // model space; instead of a pattern
+    Pattern pattern = Pattern::Uniform;
+    Impact impact; // of the patterns that have one
     Search search = Search::Auto;
     bool only_cells = false;   // stop once the Voronoi cells are there: no fragments, for measuring
     bool time_kernels = false; // timings name kernels, not stages
