@@ -37,9 +37,10 @@ READS(4, uint, bin_start);
 
 void nextPhase(ivec3 site) {
     bool ends = searchEnds(site);
-    if (phase == kPutOff) phase = kFinished;
-    else if (ends) phase = put_off_count > 0u ? kPutOff : kFinished;
+    // Who ran out of turns left candidates behind, even where the search has ended.
     if (budget == 0u && phase != kFinished) status = CELL_UNDECIDED;
+    if (phase == kPutOff) phase = kFinished;
+    else if (ends && phase == kSearching) phase = put_off_count > 0u ? kPutOff : kFinished;
     if (status != CELL_OK) phase = kFinished;
 }
 

@@ -111,16 +111,19 @@ void beginCell(ivec3 site) {
     startFromBox(site);
 }
 
-// Whether e may cut at all: one look at all corners, as if all had the error of the worst.
-bool mayCut(vec3 e) {
+// At least the greatest e.w of all corners w, or 0: one look at all of them, as if all had the error of the worst.
+float furthestAlong(vec3 e) {
     int even = 0, odd = 0;
     ALL_CORNERS(k) {
         int q = floatBitsToInt(corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z);
         if ((k & 1u) != 0u) odd = max(odd, q);
         else even = max(even, q);
     }
-    return intBitsToFloat(max(even, odd)) + length(e) * worst_error >= dot(e, e) * (1.0 - kTestError);
+    return intBitsToFloat(max(even, odd)) + length(e) * worst_error;
 }
+
+// Whether e may cut at all.
+bool mayCut(vec3 e) { return furthestAlong(e) >= dot(e, e) * (1.0 - kTestError); }
 
 // The corners that e removes for certain, and whether it may remove others.
 struct Look {

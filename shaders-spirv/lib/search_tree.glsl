@@ -1,5 +1,4 @@
-// Candidates of a cell from the sphere tree, nearer subtrees first. A subtree is entered where its sphere meets the one that
-// the cell reaches. Wants tree, leaf_start, leaf_sites and lib/fast_cell.glsl.
+// Candidates of a cell from the sphere tree, nearer subtrees first. Wants tree, leaf_start, leaf_sites and lib/fast_cell.glsl.
 #include "lib/sphere_tree.glsl"
 
 #define MOST_SEARCH_TURNS 1024u
@@ -31,6 +30,15 @@ void push(uint child) {
     depth += child != 0u ? 1u : 0u;
 }
 
+// A site d cuts corner w where d.w > d.d: inside the ball with w for a diameter, whose center is w/2. So none of a sphere of
+// radius r around c does where c.c - c.w > r r + r |w|. This holds for cells that reach far in one direction only, too: they
+// need not look at all that is as near in others.
+bool mayHoldNeighbors(vec3 c, float radius_square) {
+    float radius = sqrt(radius_square) * (1.0 + kTestError);
+    float square = dot(c, c), slack = square * kTestError;
+    return square - slack <= furthestAlong(c) + (radius * radius + radius * sqrt(reach)) * (1.0 + 2.0 * kTestError);
+}
+
 // Takes a node from the stack: its own site, its leaf's list, its children.
 void visit(uint lane, ivec3 site) {
     depth--;
@@ -38,8 +46,7 @@ void visit(uint lane, ivec3 site) {
     uvec4 node = tree[n];
     vec3 to_initial = vec3(bin_sites[node.x].xyz - site), to_inserted = vec3(bin_sites[n].xyz - site);
     float square = dot(to_inserted, to_inserted), square_initial = dot(to_initial, to_initial);
-    float gap_ = sqrt(square_initial) * (1.0 - kTestError) - sqrt(uintBitsToFloat(node.w)) * (1.0 + kTestError);
-    bool meets = gap_ <= 0.0 || gap_ * gap_ <= reach;
+    bool meets = mayHoldNeighbors(to_initial, uintBitsToFloat(node.w));
     if (meets && n != lane && square <= reach) list(n, square);
     leaf_at = leaf_start[n];
     leaf_end = meets ? leaf_start[n + 1u] : leaf_at;

@@ -221,6 +221,20 @@ HardSites clusters(uint32_t crowds, uint32_t members, double spread, uint32_t se
     return hard;
 }
 
+HardSites sitesAboutBlow(uint32_t count, double radius, uint32_t seed) {
+    HardSites hard{std::to_string(count) + " sites about a blow", {}, {1, 1, 1}, {}};
+    Random random(seed);
+    std::uniform_real_distribution<double> share(0, 4.0 / 3 - radius / 0.5);
+    std::normal_distribution<double> part;
+    while (hard.sites.size() < count) {
+        const double u = share(random), r = u < 1.0 / 3 ? radius * std::cbrt(3 * u) : radius / (4.0 / 3 - u);
+        const Point d = {part(random), part(random), part(random)};
+        const double size = std::hypot(d[0], d[1], d[2]);
+        hard.sites.push_back({0.5 + r * d[0] / size, 0.5 + r * d[1] / size, 0.5 + r * d[2] / size});
+    }
+    return hard;
+}
+
 HardSites uniformSites(uint32_t count, uint32_t seed) {
     return {std::to_string(count) + " uniform sites", {}, {1, 1, 1}, uniformPoints(count, seed)};
 }

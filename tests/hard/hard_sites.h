@@ -30,6 +30,8 @@ HardSites sphereAroundCenter(uint32_t face_count, double radius);
 HardSites cubicLattice(uint32_t side);
 // `crowds` places in the unit box, each with `members` sites within `spread`.
 HardSites clusters(uint32_t crowds, uint32_t members, double spread, uint32_t seed);
+// About the middle of the unit box: even within the radius, outside thinner with the fourth power of the distance.
+HardSites sitesAboutBlow(uint32_t count, double radius, uint32_t seed);
 HardSites uniformSites(uint32_t count, uint32_t seed);
 
 // The 24-bit grid of an event: the longest side of the box becomes 2^24 - 4 steps. Sites that fall together are welded.

@@ -90,6 +90,14 @@ TEST(CutCells, OfCrowdsAndLattices) {
     }
 }
 
+TEST(CutCells, OfCrowdsAboutABlow) {
+    for (const uint32_t count : {500u, 3000u}) {
+        SCOPED_TRACE(count);
+        const reference::SiteSet set = hard::snapToGrid(hard::sitesAboutBlow(count, .03, count)).set;
+        expectSameDiagram(set, cutOnDevice(set, Path::FilteredTree));
+    }
+}
+
 TEST(CutCells, WithManyFacesAreDoneAgainWithMoreRoom) {
     const reference::SiteSet set = hard::snapToGrid(hard::sphereAroundCenter(150, .3)).set;
     const DeviceCells device = cutOnDevice(set);
