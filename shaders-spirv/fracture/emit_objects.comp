@@ -33,6 +33,13 @@ void placeObject(uint f, vec3 balance) {
                              float[6](0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0u, 0u);
 }
 
+// Second moments of a part about another center than its own (Steiner's theorem).
+void addMomentsAbout(vec3 center, inout FragmentRecord sum, FragmentRecord part) {
+    vec3 d = part.balance.xyz - center;
+    sum.squares.xyz += part.squares.xyz + part.measure.x * d * d;
+    sum.products.xyz += part.products.xyz + part.measure.x * d.xxy * d.yzz;
+}
+
 FragmentRecord withParts(uint c, FragmentRecord r) {
     uint first = firstPartFrom(c), last = firstPartFrom(c + 1u);
     vec4 measure = r.measure, lost_measure = vec4(0.0), moment = r.measure.x * r.balance, lost_moment = vec4(0.0);
@@ -41,7 +48,12 @@ FragmentRecord withParts(uint c, FragmentRecord r) {
         addTo(measure, lost_measure, part.measure);
         addTo(moment, lost_moment, part.measure.x * part.balance);
     }
-    r.balance = measure.x != r.measure.x ? moment / measure.x : r.balance;
+    r.squares = vec4(0.0);
+    r.products = vec4(0.0);
+    vec3 balance = measure.x != r.measure.x ? moment.xyz / measure.x : r.balance.xyz;
+    addMomentsAbout(balance, r, records[c]);
+    for (uint k = first; k < last; k++) addMomentsAbout(balance, r, records[parts[k]]);
+    r.balance = vec4(balance, 0.0);
     r.measure = measure;
     return r;
 }

@@ -1,4 +1,4 @@
-// Volume, centroid, area and bounds of each component by the divergence theorem, a workgroup a component, summed in a fixed
+// Volume, centroid, second moments, area and bounds of each component by the divergence theorem, a workgroup a component, summed in a fixed
 // order. Positions are taken relative to the component's own first corner, so that small pieces far from the center keep
 // their digits; all of it in units of the event's box, so that a model of any size does.
 #version 450
@@ -19,10 +19,14 @@ layout(push_constant) uniform Push { float unit; }; // a power of two
 
 shared vec4 sums[GROUP_SIZE];
 shared vec4 moments[GROUP_SIZE];
+shared vec4 squares[GROUP_SIZE];
+shared vec4 products[GROUP_SIZE];
 shared vec4 lows[GROUP_SIZE];
 shared vec4 highs[GROUP_SIZE];
 
 vec3 cornerOf(uint id) { return positions[id].xyz * unit; }
+
+vec3 pairs(vec3 p) { return p.xxy * p.yzz; }
 
 void main() {
     uint c = flatGroup(), lane = gl_LocalInvocationID.x;
@@ -31,6 +35,7 @@ void main() {
     uvec4 lead = pieces[order[first]];
     precise vec3 origin = cornerOf(lead.x);
     vec4 sum = vec4(0.0), moment = vec4(0.0), lost_sum = vec4(0.0), lost_moment = vec4(0.0);
+    vec4 square = vec4(0.0), product = vec4(0.0), lost_square = vec4(0.0), lost_product = vec4(0.0);
     vec4 low = vec4(1e38), high = vec4(-1e38);
     for (uint k = first + lane; k < last; k += GROUP_SIZE) {
         uint t = order[k];
@@ -41,11 +46,17 @@ void main() {
         float outer_area = (sources[t] & INNER_BIT) == 0u ? area : 0.0, perimeter = length(b - a) + length(d - b) + length(a - d);
         addTo(sum, lost_sum, vec4(volume, area, outer_area, perimeter));
         addTo(moment, lost_moment, vec4(0.25 * volume * (a + b + d), 0.0));
+        // Of the tetrahedron with the origin: a twentieth of the volume, of the corners and of their sum.
+        vec3 s = a + b + d;
+        addTo(square, lost_square, vec4(0.05 * volume * (a * a + b * b + d * d + s * s), 0.0));
+        addTo(product, lost_product, vec4(0.05 * volume * (pairs(a) + pairs(b) + pairs(d) + pairs(s)), 0.0));
         low = min(low, vec4(min(a, min(b, d)), 0.0));
         high = max(high, vec4(max(a, max(b, d)), 0.0));
     }
     sums[lane] = sum;
     moments[lane] = moment;
+    squares[lane] = square;
+    products[lane] = product;
     lows[lane] = low;
     highs[lane] = high;
     barrier();
@@ -53,6 +64,8 @@ void main() {
         if (lane < width) {
             sums[lane] += sums[lane + width];
             moments[lane] += moments[lane + width];
+            squares[lane] += squares[lane + width];
+            products[lane] += products[lane + width];
             lows[lane] = min(lows[lane], lows[lane + width]);
             highs[lane] = max(highs[lane], highs[lane + width]);
         }
@@ -60,8 +73,9 @@ void main() {
     }
     if (lane == 0u && !idle) {
         float volume = sums[0].x;
-        vec3 balance = origin + (volume != 0.0 ? moments[0].xyz / volume : vec3(0.0));
-        records[c] = FragmentRecord(sums[0], vec4(balance, 0.0), vec4(origin + lows[0].xyz, 0.0), vec4(origin + highs[0].xyz, 0.0),
+        vec3 balance = volume != 0.0 ? moments[0].xyz / volume : vec3(0.0);
+        vec3 about = squares[0].xyz - volume * balance * balance, across = products[0].xyz - volume * pairs(balance);
+        records[c] = FragmentRecord(sums[0], vec4(origin + balance, 0.0), vec4(about, 0.0), vec4(across, 0.0), vec4(origin + lows[0].xyz, 0.0), vec4(origin + highs[0].xyz, 0.0),
                                     uvec4(FATE_FRAGMENT, c, lead.w, 0u), uvec4(0u));
     }
 }

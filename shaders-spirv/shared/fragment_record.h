@@ -17,6 +17,8 @@ using RecordUint4 = uint32_t[4];
 struct FragmentRecord {
     RecordFloat4 measure;  // volume, area, outer area, perimeter of all triangles
     RecordFloat4 balance;  // center of mass, relative to the mesh's center; w unused
+    RecordFloat4 squares;  // xx yy zz of the second moments of volume about the center of mass; w unused
+    RecordFloat4 products; // and xy xz yz; w unused
     RecordFloat4 low;      // bounds, relative to the mesh's center
     RecordFloat4 high;
     RecordUint4 fate;      // FATE_*, the component it belongs to, cell, unused
@@ -24,7 +26,7 @@ struct FragmentRecord {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FragmentRecord) == 96);
+static_assert(sizeof(FragmentRecord) == 128);
 } // namespace brittle
 #endif
 #endif

@@ -93,6 +93,29 @@ TEST(SmallMass, OfAsManyCubesAsThereAre) {
     }
 }
 
+// A box of sides a, b, c has V a^2 / 12 about its middle; the tetrahedron's are a textbook's.
+TEST(SmallMass, HasSecondMomentsAboutTheCenterOfMass) {
+    for (const Point& by : {Point{0, 0, 0}, Point{-3, 4, 5}}) {
+        const Judged judged = judgeOnDevice(
+            {{support::boxTriangles(by, by + Point{1, 2, 3}), 0}, {moved(kTetrahedron, by), 0}, {moved(ellPrism(), by), 0}},
+            1e-6f);
+        for (size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(judged.records[0].squares[k], 6 * (1.0 + double(k)) * (1.0 + double(k)) / 12, 1e-5);
+            EXPECT_NEAR(judged.records[0].products[k], 0, 1e-5);
+            EXPECT_NEAR(judged.records[1].squares[k], 1.0 / 160, 1e-7);
+            EXPECT_NEAR(judged.records[1].products[k], -1.0 / 480, 1e-7);
+        }
+        // Five unit squares two high: their own twelfths, and their ways from the middle at (1.1, 1.1).
+        const double own = 10.0 / 12;
+        const double xx = own + 2 * (2 * .6 * .6 + .6 * .6 + .4 * .4 + 1.4 * 1.4);
+        EXPECT_NEAR(judged.records[2].squares[0], xx, 1e-4);
+        EXPECT_NEAR(judged.records[2].squares[1], xx, 1e-4);
+        EXPECT_NEAR(judged.records[2].squares[2], 10 * 4.0 / 12, 1e-4);
+        // xy: corner (-.6,-.6), along x (.4,-.6) (1.4,-.6), along y the same turned.
+        EXPECT_NEAR(judged.records[2].products[0], 2 * (.36 + 2 * (-.24 - .84)), 1e-4);
+    }
+}
+
 // Four of the twelve triangles of a unit cube; the perimeter is that of all twelve.
 TEST(SmallMass, TellsTheModelsSurfaceFromCaps) {
     const Judged judged = judgeOnDevice({{support::boxTriangles({0, 0, 0}, {1, 1, 1}), 0, 4}}, 1e-6f);

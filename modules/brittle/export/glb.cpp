@@ -10,6 +10,7 @@
 #include <tiny_gltf.h>
 
 #include <bit>
+#include <span>
 #include <sstream>
 
 namespace brittle {
@@ -112,9 +113,8 @@ void GlbEncoder::addMaterial(const char* name, std::array<double, 3> color) {
     material.pbrMetallicRoughness.roughnessFactor = 0.8;
 }
 
-tinygltf::Value numberList(const Double3& numbers) {
-    return tinygltf::Value(
-        tinygltf::Value::Array{tinygltf::Value(numbers[0]), tinygltf::Value(numbers[1]), tinygltf::Value(numbers[2])});
+tinygltf::Value numberList(std::span<const double> numbers) {
+    return tinygltf::Value(tinygltf::Value::Array(numbers.begin(), numbers.end()));
 }
 
 void GlbEncoder::addFragment(const Fragment& fragment) {
@@ -131,7 +131,9 @@ void GlbEncoder::addFragment(const Fragment& fragment) {
     node.translation.assign(set_.center.begin(), set_.center.end());
     node.extras = tinygltf::Value(tinygltf::Value::Object{{"site", numberList(fragment.site)},
                                                           {"cell", tinygltf::Value(static_cast<int>(fragment.cell))},
-                                                          {"volume", tinygltf::Value(fragment.volume)}});
+                                                          {"volume", tinygltf::Value(fragment.volume)},
+                                                          {"center_of_mass", numberList(fragment.centroid)},
+                                                          {"inertia", numberList(fragment.inertia)}});
 }
 
 std::array<FragmentVertex, 3> GlbEncoder::triangle(const Fragment& fragment, uint32_t first) const {

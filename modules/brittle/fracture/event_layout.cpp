@@ -214,7 +214,7 @@ void takePieces(const Input& in, Taker& take) {
     b.digit_offsets = take.words((tiles << RADIX_BITS) + 1);
     b.components = take.words(n);
     b.component_start = take.words(c.components + 1ull);
-    b.records = take.words(24ull * c.components);
+    b.records = take.words(32ull * c.components);
     b.fates = take.words(2ull * c.components);
     b.cavities = take.words(c.components);
     b.films = take.words(c.components);

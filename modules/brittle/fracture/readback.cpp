@@ -35,6 +35,18 @@ engine::Result<void> fetch(engine::Device& device, std::span<const Piece> pieces
     return {};
 }
 
+// From second moments of volume: sums of squares less the axis' own, and products turned over.
+std::array<double, 6> inertiaOf(const FragmentRecord& record, double scale) {
+    const double xx = static_cast<double>(record.squares[0]), yy = static_cast<double>(record.squares[1]),
+                 zz = static_cast<double>(record.squares[2]);
+    return {scale * (yy + zz),
+            scale * (xx + zz),
+            scale * (xx + yy),
+            -scale * static_cast<double>(record.products[0]),
+            -scale * static_cast<double>(record.products[1]),
+            -scale * static_cast<double>(record.products[2])};
+}
+
 // `size`: model units in a unit of the records.
 Fragment fragmentOf(const FragmentRecord& record, double size, const std::vector<Double3>& sites) {
     Fragment f;
@@ -46,6 +58,7 @@ Fragment fragmentOf(const FragmentRecord& record, double size, const std::vector
     f.inner_index_count = 3 * record.range[3];
     f.site = f.cell < sites.size() ? sites[f.cell] : Double3{};
     f.volume = static_cast<double>(record.measure[0]) * size * size * size;
+    f.inertia = inertiaOf(record, size * size * size * size * size);
     for (size_t k = 0; k < 3; k++) {
         f.centroid[k] = static_cast<double>(record.balance[k]) * size;
         f.lower[k] = record.low[k] * static_cast<float>(size);

@@ -1,5 +1,7 @@
 #include "modules/brittle/fracture/scene_buffers.h"
 
+#include "shaders-spirv/shared/fragment_record.h"
+
 namespace brittle {
 
 engine::Result<SceneBuffers> SceneBuffers::create(engine::Device& device, uint32_t triangles, uint32_t fragments) {
@@ -16,7 +18,7 @@ engine::Result<SceneBuffers> SceneBuffers::create(engine::Device& device, uint32
                              {&SceneBuffers::objects, 96 * f, 0, "object information"},
                              {&SceneBuffers::matrices, 64 * f, 0, "model matrices"},
                              {&SceneBuffers::bounds, 24 * f, 0, "bounds"},
-                             {&SceneBuffers::fragments, 96 * f, 0, "fragments"}};
+                             {&SceneBuffers::fragments, sizeof(FragmentRecord) * f, 0, "fragments"}};
     SceneBuffers scene;
     for (const Wanted& w : wanted) {
         auto buffer =
