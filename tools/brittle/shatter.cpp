@@ -141,6 +141,7 @@ engine::Result<void> Run::breakModel() {
     options.given_sites = given_sites_;
     options.search = options_.search;
     options.pattern = options_.pattern;
+    options.relax = options_.relax;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
                       brittle::favorOf(options_.strength)};
     auto fracture = brittle::Fracture::create(*device_);

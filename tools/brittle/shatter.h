@@ -20,6 +20,7 @@ struct ShatterOptions {
     brittle::Pattern pattern = brittle::Pattern::Uniform;
     std::optional<brittle::Double3> at; // where it is hit; the center of its box if nowhere else
     double strength = 1;                // joules
+    uint32_t relax = 0;                 // rounds of Lloyd's relaxation
     brittle::Search search = brittle::Search::Auto;
     double explode = 0;
     uint32_t sites = 100;

@@ -136,6 +136,9 @@ void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& option
             },
             "where the model is hit, X,Y,Z in its coordinates; without it the center of its box")
         ->check([](const std::string& text) { return placeOf(text) ? "" : "\"" + text + "\" is no place X,Y,Z"; });
+    command.add_option("--relax", options->relax, "rounds in which each site moves to the middle of its cell: evener pieces")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, 1000u));
     command.add_option("--strength", options->strength, "of the hit, in joules where the model is in meters")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e12))

@@ -27,10 +27,14 @@ struct Event {
 
 // place_sites, neighbor_grid
 void recordSites(const Event& e);
+void recordKeptSites(const Event& e); // welds and bins what stands in raw_sites
 // sphere_tree
 void recordSphereTree(const Event& e);
 // cut_cells, link_cells
+void recordCutting(const Event& e);
 void recordCells(const Event& e);
+// relax_sites: one round, after which sites are welded and binned anew
+void recordRelaxation(const Event& e);
 // classify_triangles, clip_triangles
 void recordClassification(const Event& e);
 void recordClipping(const Event& e);

@@ -239,7 +239,7 @@ uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& me
     const engine::ScratchArena::Mark one_stage = arena.mark();
     for (const auto stage : {takeSites, takeCells, takeClipping, takePlaces, takeDepth, takeCaps}) {
         stage(in, take);
-        arena.release(one_stage);
+        if (!c.relaxed || stage != takeSites) arena.release(one_stage);
     }
     arena.release(until_caps);
     takePieces(in, take);

@@ -47,6 +47,7 @@ public:
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
         if (options.only_cells) capacity = forCellsOnly(capacity);
+        capacity.relaxed = options.relax != 0;
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
@@ -131,7 +132,7 @@ private:
         auto grid = makeEventGrid(mesh, p.local_sites, siteCount(options), aboutImpact(options));
         if (!grid) return grid.error();
         p.grid = *grid;
-        if (options.given_sites.empty()) p.columns = makeColumns(mesh, p.grid);
+        if (options.given_sites.empty() || options.relax != 0) p.columns = makeColumns(mesh, p.grid);
         return p;
     }
 
@@ -164,6 +165,8 @@ private:
 
     static void recordAll(const Event& event) {
         recordSites(event);
+        for (uint32_t round = 0; round < event.options.relax; round++)
+            recordRelaxation(event);
         if (event.search == Search::SphereTree) recordSphereTree(event);
         recordCells(event);
         if (event.options.only_cells) return;

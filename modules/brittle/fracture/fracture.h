@@ -21,7 +21,8 @@ struct FractureOptions {
     uint64_t seed = 1;
     std::vector<Double3> given_sites; // model space; instead of a pattern
     Pattern pattern = Pattern::Uniform;
-    Impact impact; // of the patterns that have one
+    Impact impact;      // of the patterns that have one
+    uint32_t relax = 0; // rounds in which each site goes to the centroid of its cell (Lloyd 1982)
     Search search = Search::Auto;
     bool only_cells = false;   // stop once the Voronoi cells are there: no fragments, for measuring
     bool time_kernels = false; // timings name kernels, not stages

@@ -28,7 +28,7 @@ struct Fragment {
     Double3 centroid = {0, 0, 0}; // relative to FragmentSet::center
     // Of inertia about the centroid, for a density of 1: xx yy zz xy xz yz of the tensor, model units to the fifth.
     std::array<double, 6> inertia = {0, 0, 0, 0, 0, 0};
-    Float3 lower = {0, 0, 0};     // bounds, relative to FragmentSet::center
+    Float3 lower = {0, 0, 0}; // bounds, relative to FragmentSet::center
     Float3 upper = {0, 0, 0};
 };
 

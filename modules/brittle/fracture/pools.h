@@ -27,6 +27,7 @@ struct Capacities {
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
+    bool relaxed = false;     // sites are still moved when cells have been cut
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     struct Rare {

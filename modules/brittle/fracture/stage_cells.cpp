@@ -52,6 +52,8 @@ void recordFiltered(const Event& e, const FastPush& push) {
     }
 }
 
+} // namespace
+
 void recordCutting(const Event& e) {
     const auto& b = e.b;
     FastPush fast = {e.grid.bins,
@@ -66,6 +68,8 @@ void recordCutting(const Event& e) {
     recordExact(e, "cut_cells_exact_medium", e.capacity.rare.medium_cells, 1);
     recordExact(e, "cut_cells_exact_large", e.capacity.rare.large_cells, 2);
 }
+
+namespace {
 
 void recordPacking(const Event& e) {
     const auto& b = e.b;

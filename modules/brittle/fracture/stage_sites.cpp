@@ -110,14 +110,18 @@ void recordSites(const Event& e) {
         float scale;
     } snap = {e.capacity.vertices, e.grid.scale};
     e.record.commands().beginLabel("place_sites");
-    e.record.clear({e.b.site_table, e.b.bin_counts, e.b.bin_cursors});
     e.record.run("snap_vertices", Length::of(e.capacity.vertices), snap, {e.b.mesh_positions, e.b.grid_vertices});
     if (e.options.given_sites.empty()) recordPlacement(e);
-    recordSiteWelding(e);
     e.record.commands().endLabel();
     e.record.commands().beginLabel("neighbor_grid");
-    recordBinning(e);
+    recordKeptSites(e);
     e.record.commands().endLabel();
+}
+
+void recordKeptSites(const Event& e) {
+    e.record.clear({e.b.site_table, e.b.bin_counts, e.b.bin_cursors});
+    recordSiteWelding(e);
+    recordBinning(e);
 }
 
 } // namespace brittle
