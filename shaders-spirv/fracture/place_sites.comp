@@ -1,7 +1,7 @@
 // Sites inside the mesh, those outside the solid drawn again: evenly, or (IMPACT) about a place where it is hit.
 //
-// Evenly: points of the box. A first draw picks one of the columns that the surface covers, which keeps thin models from
-// rejecting nearly everything.
+// Evenly: a first draw picks one of the columns that the surface covers, the next ones a place in it, up to the height of the
+// tallest; of thin models at an angle to the axes, too, the columns hold little else.
 //
 // About an impact the density is even within the contact radius r0 and falls as r^-4 outside. The radius comes from the
 // inverse of its cumulated density, u = (r / r0)^3 / 3 up to r0, then 4/3 - r0 / r; a point drawn evenly from a ball has the
@@ -32,6 +32,7 @@ layout(push_constant) uniform Push {
     uint triangle_count;
     uint favor; // of 2^32: how often the candidate nearest to the impact is taken
     uint furthest; // place in the mesh, from the impact
+    uint tallest;  // column: the most that lies between the lowest and the highest z of one
 };
 #include "lib/place_in_mesh.glsl"
 
@@ -65,8 +66,8 @@ bool drawPlace(uint site, uint attempt, out ivec3 p) {
     ivec4 c = columns[below(draw(site, attempt, 0u), occupied)];
     p.x = low.x + c.x * low.w + int(below(draw(site, attempt, 1u), uint(low.w)));
     p.y = low.y + c.y * low.w + int(below(draw(site, attempt, 2u), uint(low.w)));
-    p.z = low.z + int(below(draw(site, attempt, 3u), uint(high.z - low.z + 1)));
-    return p.x <= high.x && p.y <= high.y && p.z >= c.z && p.z <= c.w;
+    p.z = c.z + int(below(draw(site, attempt, 3u), tallest + 1u));
+    return p.x <= high.x && p.y <= high.y && p.z <= c.w;
 }
 #endif
 

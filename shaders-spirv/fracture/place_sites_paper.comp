@@ -30,6 +30,7 @@ layout(push_constant) uniform Push {
     uint triangle_count;
     uint favor; // of 2^32: how often the candidate nearest to the impact is taken
     uint furthest; // place in the mesh, from the impact
+    uint tallest;  // column: the most that lies between the lowest and the highest z of one
 };
 #include "lib/place_in_mesh.glsl"
 

@@ -51,6 +51,7 @@ struct TriangleColumns {
     std::vector<uint32_t> start; // first entry of each column, and the end
     std::vector<uint32_t> triangles;
     std::vector<Int4> occupied; // x and y index, lowest and highest z of its triangles
+    uint32_t tallest = 0;       // the most that lies between the two
 };
 
 TriangleColumns makeColumns(const Mesh& mesh, const EventGrid& grid);

@@ -13,7 +13,7 @@ constexpr uint32_t kPatternRounds = 2, kEvenRounds = 4;
 
 struct PlacePush {
     Int4 low, high, impact;
-    uint32_t site_count, occupied, seed_low, seed_high, first_try, triangle_count, favor, furthest;
+    uint32_t site_count, occupied, seed_low, seed_high, first_try, triangle_count, favor, furthest, tallest;
 };
 
 Int4 withLast(const Int3& p, int32_t last) { return {p[0], p[1], p[2], last}; }
@@ -41,7 +41,8 @@ PlacePush placePush(const Event& e) {
             0,
             e.capacity.triangles,
             static_cast<uint32_t>(std::clamp(impact.favor, 0.0, 1.0) * 4294967295.0),
-            static_cast<uint32_t>(furthest)};
+            static_cast<uint32_t>(furthest),
+            e.columns.tallest};
 }
 
 void recordPatternRound(const Event& e, const PlacePush& push) {
