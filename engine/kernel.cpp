@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <thread>
 
@@ -34,13 +35,24 @@ Result<void> checkInterface(const Kernel& kernel, const VkPhysicalDeviceLimits& 
     }
     if (r.push_size > limits.maxPushConstantsSize) return refused(kernel.name, "has too many push constants");
     if (r.local_size[1] != 1 || r.local_size[2] != 1) return refused(kernel.name, "has a workgroup of more than one dimension");
-    if (r.local_size[0] > limits.maxComputeWorkGroupInvocations) return refused(kernel.name, "has too large a workgroup");
+    const uint32_t most_lanes = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+    if (r.local_size[0] == 0 || r.local_size[0] > most_lanes)
+        return refused(kernel.name, "has a workgroup of " + std::to_string(r.local_size[0]) + " lanes, the device takes 1 to " +
+                                        std::to_string(most_lanes));
     return {};
+}
+
+void specializeLocalSize(Reflection& reflection, std::span<const SpecConstant> constants) {
+    for (size_t k = 0; k < 3; ++k) {
+        for (const SpecConstant& constant : constants)
+            if (reflection.local_size_ids[k] == constant.id) reflection.local_size[k] = constant.value;
+    }
 }
 
 } // namespace
 
-KernelLibrary::KernelLibrary(Device& device, std::span<const shaders::Module> modules) : device_(device), modules_(modules) {}
+KernelLibrary::KernelLibrary(Device& device, std::span<const shaders::Module> modules, std::vector<SpecConstant> common)
+    : device_(device), modules_(modules), common_(std::move(common)) {}
 
 KernelLibrary::~KernelLibrary() {
     device_.waitIdle();
@@ -104,12 +116,26 @@ Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::
     auto kernel = std::make_unique<Kernel>();
     kernel->name = name;
     kernel->reflection = std::move(*reflection);
+    const std::vector<SpecConstant> constants = constantsOf(kernel->reflection, spec);
+    specializeLocalSize(kernel->reflection, constants);
     auto made = checkInterface(*kernel, device_.limits());
     if (made) made = makeLayouts(*kernel);
-    if (made) made = makePipeline(*kernel, module->words, spec);
+    if (made) made = makePipeline(*kernel, module->words, constants);
     if (made) return kernel;
     destroy(*kernel);
     return made.error();
+}
+
+// Those asked for by place, and those in common that the kernel declares and that were not asked for.
+std::vector<SpecConstant> KernelLibrary::constantsOf(const Reflection& reflection, std::span<const uint32_t> spec) const {
+    std::vector<SpecConstant> constants;
+    for (uint32_t i = 0; i < spec.size(); ++i)
+        constants.push_back({i, spec[i]});
+    for (const SpecConstant& constant : common_) {
+        if (constant.id >= spec.size() && std::ranges::binary_search(reflection.spec_ids, constant.id))
+            constants.push_back(constant);
+    }
+    return constants;
 }
 
 Result<void> KernelLibrary::makeLayouts(Kernel& kernel) const {
@@ -135,7 +161,7 @@ Result<void> KernelLibrary::makeLayouts(Kernel& kernel) const {
     return {};
 }
 
-Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const uint32_t> spec) {
+Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const SpecConstant> spec) {
     const VolkDeviceTable& vk = device_.vk();
     const auto start = std::chrono::steady_clock::now();
     VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -147,7 +173,7 @@ Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_
 
     std::vector<VkSpecializationMapEntry> entries;
     for (uint32_t i = 0; i < spec.size(); ++i)
-        entries.push_back({i, i * 4, 4});
+        entries.push_back({spec[i].id, static_cast<uint32_t>(i * sizeof(SpecConstant) + offsetof(SpecConstant, value)), 4});
     const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(), spec.size_bytes(), spec.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,

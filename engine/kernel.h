@@ -22,12 +22,17 @@ constexpr uint32_t kMaxBindings = 32;
 
 struct Kernel {
     std::string name;
-    Reflection reflection;
+    Reflection reflection; // local_size as it was specialized
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkPipeline pipeline = VK_NULL_HANDLE;
 
     uint32_t bufferCount() const { return static_cast<uint32_t>(reflection.bindings.size()); }
+};
+
+struct SpecConstant {
+    uint32_t id = 0; // constant_id, or local_size_x_id
+    uint32_t value = 0;
 };
 
 struct KernelRequest {
@@ -37,7 +42,10 @@ struct KernelRequest {
 
 class KernelLibrary {
 public:
-    explicit KernelLibrary(Device& device, std::span<const shaders::Module> modules = shaders::all());
+    // `common` holds for every kernel that declares a constant of that id: what all of them must agree on, such as the size
+    // of their workgroups.
+    explicit KernelLibrary(Device& device, std::span<const shaders::Module> modules = shaders::all(),
+                           std::vector<SpecConstant> common = {});
     ~KernelLibrary();
     KernelLibrary(const KernelLibrary&) = delete;
     KernelLibrary& operator=(const KernelLibrary&) = delete;
@@ -51,18 +59,21 @@ public:
     Result<void> warm(std::span<const KernelRequest> requests);
 
     std::span<const shaders::Module> modules() const { return modules_; }
+    const std::vector<SpecConstant>& common() const { return common_; }
     uint32_t kernelCount() const;
     double creationMs() const; // in the driver, added up over all pipelines, also those made at the same time
 
 private:
     using Key = std::pair<std::string, std::vector<uint32_t>>;
     Result<std::unique_ptr<Kernel>> make(std::string_view name, std::span<const uint32_t> spec);
+    std::vector<SpecConstant> constantsOf(const Reflection& reflection, std::span<const uint32_t> spec) const;
     Result<void> makeLayouts(Kernel& kernel) const;
-    Result<void> makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const uint32_t> spec);
+    Result<void> makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const SpecConstant> spec);
     void destroy(const Kernel& kernel) const;
 
     Device& device_;
     std::span<const shaders::Module> modules_;
+    std::vector<SpecConstant> common_;
     mutable std::mutex mutex_;
     std::map<Key, std::unique_ptr<Kernel>> kernels_;
     double creation_ms_ = 0;

@@ -22,13 +22,13 @@ void dispatchNothing(Device& device, const Kernel& kernel, const Buffer& buffer)
 }
 
 void compileOnTwin(const std::stop_token& stop, const std::string& name, std::span<const shaders::Module> modules,
-                   const std::vector<std::string_view>& kernels) {
+                   const std::vector<SpecConstant>& common, const std::vector<std::string_view>& kernels) {
     auto twin = Device::create({.select = name});
     if (!twin) return;
     auto buffer = Buffer::create(**twin, (kMaxBindings + 1) * kViewBytes, BufferDomain::Device,
                                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, "warm-up");
     if (!buffer) return;
-    KernelLibrary library(**twin, modules);
+    KernelLibrary library(**twin, modules, common);
     for (const std::string_view kernel : kernels) {
         if (stop.stop_requested()) return;
         if (auto made = library.get(kernel)) dispatchNothing(**twin, **made, *buffer);
@@ -40,8 +40,10 @@ void compileOnTwin(const std::stop_token& stop, const std::string& name, std::sp
 KernelWarmup::KernelWarmup(Device& device, KernelLibrary& library, std::vector<std::string_view> names) {
     if (device.gpuAssistedValidation()) return; // the layer's own work on every kernel would be done twice
     if (device.isCpu()) {
-        thread_ = std::jthread([device_name = device.name(), modules = library.modules(), names = std::move(names)](
-                                   const std::stop_token& stop) { compileOnTwin(stop, device_name, modules, names); });
+        thread_ = std::jthread([device_name = device.name(), modules = library.modules(), common = library.common(),
+                                names = std::move(names)](const std::stop_token& stop) {
+            compileOnTwin(stop, device_name, modules, common, names);
+        });
         return;
     }
     thread_ = std::jthread([&library, names = std::move(names)] {

@@ -38,7 +38,8 @@ struct Parsed {
     std::map<uint32_t, Decorations> decorations;
     std::map<std::pair<uint32_t, uint32_t>, Decorations> member_decorations;
     std::map<uint32_t, Type> types;
-    std::map<uint32_t, uint32_t> constants;
+    std::map<uint32_t, uint32_t> constants; // by id, specialization constants with their defaults
+    std::map<uint32_t, std::vector<uint32_t>> composites;
     std::vector<Variable> variables;
     std::array<uint32_t, 3> local_size = {1, 1, 1};
     spv::ExecutionModel model = spv::ExecutionModelMax;
@@ -77,8 +78,11 @@ void Parsed::instruction(spv::Op op, std::span<const uint32_t> w) {
         if (w.size() > 2) member_decorations[{w[0], w[1]}].values[w[2]] = w.size() > 3 ? w[3] : 0;
         break;
     case spv::OpConstant:
+    case spv::OpSpecConstant:
         if (w.size() > 2) constants[w[1]] = w[2];
         break;
+    case spv::OpConstantComposite:
+    case spv::OpSpecConstantComposite: composites[w[1]] = {w.begin() + 2, w.end()}; break;
     case spv::OpVariable:
         if (w.size() > 2) variables.push_back({w[1], w[0], static_cast<spv::StorageClass>(w[2])});
         break;
@@ -202,6 +206,23 @@ void addStructs(const Parsed& parsed, Reflection& result) {
     }
 }
 
+// A constant decorated as WorkgroupSize holds in place of the execution mode; its parts may be specialization constants.
+void setLocalSize(const Parsed& parsed, Reflection& result) {
+    result.local_size = parsed.local_size;
+    for (const auto& [id, parts] : parsed.composites) {
+        const auto own = parsed.decorations.find(id);
+        if (own == parsed.decorations.end() || !own->second.has(spv::DecorationBuiltIn)) continue;
+        if (own->second.get(spv::DecorationBuiltIn) != spv::BuiltInWorkgroupSize || parts.size() != 3) continue;
+        for (size_t k = 0; k < 3; ++k) {
+            if (const auto size = parsed.constants.find(parts[k]); size != parsed.constants.end())
+                result.local_size[k] = size->second;
+            const auto part = parsed.decorations.find(parts[k]);
+            if (part != parsed.decorations.end() && part->second.has(spv::DecorationSpecId))
+                result.local_size_ids[k] = part->second.get(spv::DecorationSpecId);
+        }
+    }
+}
+
 ShaderStage stageOf(spv::ExecutionModel model) {
     switch (model) {
     case spv::ExecutionModelGLCompute: return ShaderStage::Compute;
@@ -226,7 +247,7 @@ Result<Reflection> reflect(std::span<const uint32_t> words) {
     }
     Reflection result;
     result.stage = stageOf(parsed.model);
-    result.local_size = parsed.local_size;
+    setLocalSize(parsed, result);
     addVariables(parsed, result);
     addStructs(parsed, result);
     std::set<uint32_t> ids;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,10 +37,11 @@ enum class ShaderStage { Compute, Vertex, Fragment, Other };
 
 struct Reflection {
     ShaderStage stage = ShaderStage::Other;
-    std::vector<ReflectedBinding> bindings; // by set and binding
-    uint32_t push_size = 0;                 // bytes up to the end of the last member
-    std::array<uint32_t, 3> local_size = {1, 1, 1};
-    std::vector<uint32_t> spec_ids; // ascending
+    std::vector<ReflectedBinding> bindings;                // by set and binding
+    uint32_t push_size = 0;                                // bytes up to the end of the last member
+    std::array<uint32_t, 3> local_size = {1, 1, 1};        // where nothing is specialized
+    std::array<std::optional<uint32_t>, 3> local_size_ids; // constant_ids that set it
+    std::vector<uint32_t> spec_ids;                        // ascending
     std::vector<ReflectedStruct> structs;
 };
 

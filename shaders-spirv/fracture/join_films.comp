@@ -8,7 +8,7 @@
 
 #define MOST_HOSTS 6
 #define STEPS_OUTSIDE 8.0
-FLAT_KERNEL;
+GROUP_KERNEL;
 UPDATES(0, uint, counts);
 READS(1, uint, films);
 READS(2, uint, component_start);

@@ -7,7 +7,7 @@
 #include "lib/sum.glsl"
 #include "shared/fragment_record.h"
 
-FLAT_KERNEL;
+GROUP_KERNEL;
 READS(0, uint, counts);
 READS(1, uint, component_start);
 READS(2, uint, order);

@@ -5,7 +5,7 @@
 #include "lib/double_float.glsl"
 #include "shared/fragment_record.h"
 
-FLAT_KERNEL;
+GROUP_KERNEL;
 READS(0, uint, counts);
 READS(1, uint, films);
 READS(2, uint, component_start);

@@ -6,7 +6,7 @@
 #include "shared/fragment_record.h"
 
 #define MOST_AROUND 128
-FLAT_KERNEL;
+GROUP_KERNEL;
 UPDATES(0, uint, counts);
 READS(1, uint, cavities);
 READS(2, uint, component_start);

@@ -16,7 +16,7 @@ float near_square;
 void loadChunk(uint first) {
     chunk_first = first;
     chunk_end = min(first + CHUNK, site_total);
-    for (uint k = gl_LocalInvocationID.x; first + k < chunk_end && k < CHUNK; k += GROUP_SIZE) chunk[k] = bin_sites[first + k];
+    for (uint k = gl_LocalInvocationID.x; first + k < chunk_end && k < CHUNK; k += gl_WorkGroupSize.x) chunk[k] = bin_sites[first + k];
     at = first;
     barrier();
 }

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 
-FLAT_KERNEL;
+GROUP_KERNEL;
 READS(0, uint, counts);
 READS(1, uint, keys);
 WRITES(2, uint, histogram);

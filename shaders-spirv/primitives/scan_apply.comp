@@ -6,7 +6,7 @@
 #include "lib/kernel.glsl"
 #include "lib/scan_value.glsl"
 
-FLAT_KERNEL;
+GROUP_KERNEL;
 UPDATES(0, uint, counts);
 READS(1, Value, values);
 READS(2, Value, sums);

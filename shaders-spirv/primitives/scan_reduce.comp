@@ -4,7 +4,7 @@
 #include "lib/kernel.glsl"
 #include "lib/scan_value.glsl"
 
-FLAT_KERNEL;
+GROUP_KERNEL;
 READS(0, uint, counts);
 READS(1, Value, values);
 WRITES(2, Value, sums);

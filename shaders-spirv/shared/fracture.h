@@ -7,8 +7,10 @@
 #define BOX_BASE 0xfffffff0u  /* six walls of the box: BOX_BASE + 0..5 = -x +x -y +y -z +z */
 #define EDGE_BASE 0xffffffe0u /* side of a clipped polygon on edge k of its triangle: EDGE_BASE + k */
 
-// Lanes of a workgroup in every flat kernel, and elements that one workgroup scans.
+// Lanes of a workgroup: in kernels whose lanes work together on one element, and, if the host does not set the
+// specialization constant to another power of two, in those of a lane an element. Then elements that one workgroup scans.
 #define GROUP_SIZE 64
+#define FLAT_SIZE_ID 100
 #define SCAN_BLOCK 1024
 
 // Indices into the buffer of counts; the dispatch arguments of a count have the same index.

@@ -43,6 +43,8 @@ private:
         ("brittle_cli_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
+class LongCli : public Cli {};
+
 TEST_F(Cli, ShatterWritesFragmentsAndReportsThem) {
     const Outcome run =
         runProgram("brittle", {"shatter", "builtin:icosphere:3", "-o", path("a.glb"), "--sites", "12", "--verify", "--json"});
@@ -79,6 +81,43 @@ TEST_F(Cli, TheSameSeedGivesTheSameBytes) {
     EXPECT_NE(shatter("other.glb", "8", "2"), first);
 }
 
+TEST_F(Cli, TheSameBytesFromWorkgroupsOfAnySize) {
+    const auto shatter = [&](const std::string& size) {
+        const Outcome run = runProgram("brittle", {"shatter", "builtin:ring", "-o", path(size), "--group-size", size});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return fileBytes(path(size));
+    };
+    const std::string usual = shatter("64");
+    ASSERT_FALSE(usual.empty());
+    EXPECT_TRUE(shatter("16") == usual);
+}
+
+// The driver's subgroups are 4, 8 or 16 lanes wide; it reads that and its threads when it starts, and compiles for each width.
+TEST_F(LongCli, TheSameBytesWhateverTheThreadsAndTheWidthOfSubgroups) {
+    const auto shatter = [&](std::vector<std::string> arguments, const std::vector<std::string>& environment) {
+        arguments.insert(arguments.begin(), "shatter");
+        arguments.insert(arguments.end(), {"-o", path("a.glb")});
+        const Outcome run = runProgram("brittle", arguments, environment);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return fileBytes(path("a.glb"));
+    };
+    const std::vector<std::vector<std::string>> events = {
+        {"builtin:ring", "--sites", "300"},
+        {"builtin:bumpy:4", "--sites", "1000", "--group-size", "8"},
+        {"builtin:bumpy:3", "--sites", "150", "--at", "0,0,.5", "--strength", "3"},
+        {"builtin:bumpy:3", "--sites", "200", "--search", "linear"},
+    };
+    std::vector<std::string> usual;
+    for (const auto& event : events) {
+        usual.push_back(shatter(event, {}));
+        ASSERT_FALSE(usual.back().empty());
+    }
+    for (const char* setting : {"LP_NUM_THREADS=0", "LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NATIVE_VECTOR_WIDTH=128",
+                                "LP_NATIVE_VECTOR_WIDTH=256", "LP_NATIVE_VECTOR_WIDTH=512"})
+        for (size_t k = 0; k < events.size(); ++k)
+            EXPECT_TRUE(shatter(events[k], {setting}) == usual[k]) << setting << ", " << events[k][0];
+}
+
 TEST_F(Cli, SitesFromAFile) {
     std::ofstream(path("sites.txt")) << "# three in the cube\n-.25 0 0\n.25 0 0\n\n0 .25 .1  # the last\n";
     const Outcome run =
@@ -100,6 +139,8 @@ TEST_F(Cli, BadUsageIsRefused) {
     for (const char* seed : {"-1", "99999999999999999999", "one"})
         expectRefused({"shatter", "builtin:cube", "--seed", seed}, 2);
     expectRefused({"shatter", "builtin:cube", "--explode", "nan"}, 2);
+    for (const char* size : {"0", "4", "48", "512", "-64", "many"})
+        expectRefused({"shatter", "builtin:cube", "--group-size", size}, 2);
     expectRefused({"shatter", "builtin:nothing"}, 2);
     expectRefused({"shatter", path("missing.obj")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);

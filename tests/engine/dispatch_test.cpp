@@ -153,6 +153,51 @@ TEST(Copy, MovesRangesAndFillsThem) {
     EXPECT_EQ(wordsOf(target), (std::vector<uint32_t>{5, 12, 13, 14, 5, 5, 5, 5}));
 }
 
+// Seen from the host, which counts the workgroups, and from the kernel.
+TEST(KernelLibrary, SetsTheSizeOfWorkgroupsForKernelsThatLeaveItOpen) {
+    for (const uint32_t size : {8u, 16u, 128u}) {
+        KernelLibrary library(device(), shaders::engineTestKernels(), {{100, size}});
+        const auto sized = library.get("sized_workgroup"), fixed = library.get("increment");
+        ASSERT_TRUE(sized && fixed);
+        EXPECT_EQ((*sized)->reflection.local_size[0], size);
+        EXPECT_EQ((*fixed)->reflection.local_size[0], 64u);
+        const Buffer words = upload(device(), std::vector<uint32_t>(400, 5));
+        Commands commands(device());
+        ASSERT_TRUE(commands.begin());
+        commands.dispatch(**sized, 129, NoPush{}, {words});
+        finish(commands);
+        const uint32_t lanes = (129 + size - 1) / size * size;
+        for (uint32_t k = 0; k < 400; ++k)
+            ASSERT_EQ(wordsOf(words)[k], k < lanes ? 7000 + size : 5u) << k;
+    }
+}
+
+TEST(KernelLibrary, SetsConstantsAskedForByPlaceNextToThoseInCommon) {
+    KernelLibrary library(device(), shaders::engineTestKernels(), {{100, 32}, {3, 4}});
+    const Buffer words = upload(device(), std::vector<uint32_t>(64, 5));
+    for (const auto& [spec, other] :
+         {std::pair(std::vector<uint32_t>{}, 4u), std::pair(std::vector<uint32_t>{0, 0, 0, 9}, 9u)}) {
+        const auto kernel = library.get("sized_workgroup", spec);
+        ASSERT_TRUE(kernel);
+        Commands commands(device());
+        ASSERT_TRUE(commands.begin());
+        commands.dispatch(**kernel, 1, NoPush{}, {words});
+        finish(commands);
+        EXPECT_EQ(wordsOf(words)[31], 1000 * other + 32);
+        EXPECT_EQ(wordsOf(words)[32], 5u);
+    }
+}
+
+TEST(KernelLibrary, RefusesWorkgroupsThatTheDeviceDoesNotTake) {
+    for (const uint32_t size : {0u, 1u << 20}) {
+        KernelLibrary library(device(), shaders::engineTestKernels(), {{100, size}});
+        const auto refused = library.get("sized_workgroup");
+        ASSERT_FALSE(refused);
+        EXPECT_NE(refused.error().message.find("a workgroup of " + std::to_string(size) + " lanes"), std::string::npos)
+            << refused.error().message;
+    }
+}
+
 TEST(KernelWarmup, LeavesKernelsAsUsableAsWithoutIt) {
     KernelLibrary library(device(), shaders::engineTestKernels());
     {

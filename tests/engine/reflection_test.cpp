@@ -46,6 +46,12 @@ TEST(Reflection, KnowsSizesAndConstants) {
     EXPECT_EQ(r.spec_ids, (std::vector<uint32_t>{1, 4}));
     EXPECT_EQ(reflected("increment").push_size, 0u);
     EXPECT_EQ(reflected("flat_workgroup").local_size, (std::array<uint32_t, 3>{8, 8, 1}));
+    EXPECT_FALSE(r.local_size_ids[0]);
+    const Reflection sized = reflected("sized_workgroup");
+    EXPECT_EQ(sized.local_size, (std::array<uint32_t, 3>{64, 1, 1}));
+    EXPECT_EQ(sized.local_size_ids[0], 100u);
+    EXPECT_FALSE(sized.local_size_ids[1]);
+    EXPECT_EQ(sized.spec_ids, (std::vector<uint32_t>{3, 100}));
     EXPECT_EQ(reflected("passthrough.vert").stage, ShaderStage::Vertex);
 }
 

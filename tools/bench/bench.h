@@ -25,7 +25,8 @@ struct BenchOptions {
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
     uint64_t seed = 1;
-    bool kernels = false; // time every kernel as well, in runs of their own
+    uint32_t group_size = 0; // lanes of a workgroup; 0: the usual number
+    bool kernels = false;    // time every kernel as well, in runs of their own
 };
 
 using Times = std::vector<std::pair<std::string, double>>; // milliseconds of device time, in order
@@ -42,9 +43,9 @@ struct CellsRow {
 struct ShatterRow {
     uint32_t sites = 0;
     size_t triangles = 0, fragments = 0;
-    double ms = 0;        // the whole call, from arrays in host memory to fragments in host memory
-    double device_ms = 0; // from submission to completion
-    double cgal_ms = 0;   // the hull of every cell and its intersection with the model
+    double ms = 0;         // the whole call, from arrays in host memory to fragments in host memory
+    double device_ms = 0;  // from submission to completion
+    double cgal_ms = 0;    // the hull of every cell and its intersection with the model
     Times stages, kernels; // kernels where asked for
 };
 

@@ -58,7 +58,7 @@ engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const B
                                                  const Progress& progress) {
     auto cube = prepared(unitCube());
     if (!cube) return cube.error();
-    auto fracture = brittle::Fracture::create(device);
+    auto fracture = brittle::Fracture::create(device, options.group_size);
     if (!fracture) return fracture.error();
     std::vector<CellsRow> rows;
     for (const uint32_t count : options.cell_counts) {

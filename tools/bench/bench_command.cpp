@@ -1,4 +1,5 @@
 // brittle bench: its options and what it prints.
+#include "shaders-spirv/shared/fracture.h"
 #include "tools/bench/bench.h"
 #include "tools/brittle/command.h"
 
@@ -69,8 +70,13 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!shatters) return shatters.error();
     const auto growth = bench::benchGrowth(device, options, progress);
     if (!growth) return growth.error();
-    Json report = {{"device", device.name()},  {"driver", device.driver()}, {"cores", std::thread::hardware_concurrency()},
-                   {"rounds", options.rounds}, {"cells", toJson(*cells)},   {"shatter", toJson(*shatters)},
+    Json report = {{"device", device.name()},
+                   {"driver", device.driver()},
+                   {"group_size", options.group_size == 0 ? GROUP_SIZE : options.group_size},
+                   {"cores", std::thread::hardware_concurrency()},
+                   {"rounds", options.rounds},
+                   {"cells", toJson(*cells)},
+                   {"shatter", toJson(*shatters)},
                    {"growth", toJson(*growth)}};
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);
@@ -123,6 +129,9 @@ void addBench(CLI::App& app, int& exit_code) {
     command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
+    command->add_option("--group-size", options->bench.group_size, "lanes of a workgroup, a power of two from 8 to 256")
+        ->check(groupSize)
+        ->option_text("N [64]");
     command->callback([options, &exit_code] { exit_code = runBench(*options); });
 }
 

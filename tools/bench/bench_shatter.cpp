@@ -63,7 +63,7 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
                                                      const Progress& progress) {
     auto model = prepared(bumpySphere(options.sphere_level));
     if (!model) return model.error();
-    auto fracture = brittle::Fracture::create(device);
+    auto fracture = brittle::Fracture::create(device, options.group_size);
     if (!fracture) return fracture.error();
     std::vector<ShatterRow> rows;
     for (const uint32_t count : options.shatter_counts) {
@@ -83,7 +83,7 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
 
 engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options,
                                                     const Progress& progress) {
-    auto fracture = brittle::Fracture::create(device);
+    auto fracture = brittle::Fracture::create(device, options.group_size);
     if (!fracture) return fracture.error();
     std::vector<ShatterRow> rows;
     for (const uint32_t level : options.growth_levels) {

@@ -3,6 +3,8 @@
 #include "tools/brittle/progress.h"
 
 #include <algorithm>
+#include <bit>
+#include <charconv>
 #include <cstdio>
 
 namespace cli {
@@ -19,6 +21,14 @@ ExitCode exitCode(engine::ErrorCode code) {
 }
 
 } // namespace
+
+std::string groupSize(const std::string& text) {
+    uint32_t lanes = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), lanes);
+    const bool is_number = error == std::errc() && end == text.data() + text.size();
+    if (is_number && std::has_single_bit(lanes) && lanes >= 8 && lanes <= 256) return "";
+    return "\"" + text + "\" is no power of two from 8 to 256";
+}
 
 int fail(const engine::Error& error) {
     std::string line = error.message;

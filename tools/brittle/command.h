@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+
 namespace cli {
 
 enum ExitCode { kOk = 0, kInternalError = 1, kBadInput = 2, kCapacity = 3, kDeviceError = 4 };
@@ -14,6 +16,10 @@ void addShatter(CLI::App& app, int& exit_code);
 void addDevices(CLI::App& app, int& exit_code);
 void addDoctor(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code); // in tools/bench
+
+// A check of the option that sets the lanes of a workgroup: empty if it is right, else what is wrong. Whether the device takes
+// as many is its own question.
+std::string groupSize(const std::string& text);
 
 // Prints "brittle: MESSAGE" as one line on stderr.
 int fail(const engine::Error& error);

@@ -144,7 +144,7 @@ engine::Result<void> Run::breakModel() {
     options.relax = options_.relax;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
                       brittle::favorOf(options_.strength)};
-    auto fracture = brittle::Fracture::create(*device_);
+    auto fracture = brittle::Fracture::create(*device_, options_.group_size);
     if (!fracture) return fracture.error();
     auto result = (*fracture)->shatter(model_->mesh, model_->topology, options);
     if (!result) return aboutModel(result.error());

@@ -25,8 +25,9 @@ struct ShatterOptions {
     double explode = 0;
     uint32_t sites = 100;
     uint64_t seed = 1;
-    bool repair = false; // mend the model where it needs to be
-    bool verify = false; // refuse fragments that break their contract
+    uint32_t group_size = 0; // lanes of a workgroup; 0: the usual number
+    bool repair = false;     // mend the model where it needs to be
+    bool verify = false;     // refuse fragments that break their contract
     bool as_json = false;
 };
 

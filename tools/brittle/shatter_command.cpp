@@ -176,6 +176,11 @@ void addShatter(CLI::App& app, int& exit_code) {
         ->check([](const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; });
     command->add_flag("--json", options->as_json, "print one JSON object, errors measured");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
+    command
+        ->add_option("--group-size", options->group_size,
+                     "lanes of a workgroup, a power of two from 8 to 256; the fragments are the same")
+        ->check(groupSize)
+        ->option_text("N [64]");
     command->callback([options, &exit_code] { exit_code = runShatter(*options); });
 }
 

@@ -9,6 +9,7 @@
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -36,8 +37,9 @@ struct Attempt {
 
 class FractureDevice final : public Fracture {
 public:
-    explicit FractureDevice(engine::Device& device)
-        : device_(device), kernels_(device), warmup_(device, kernels_, kernelsToWarm()) {}
+    FractureDevice(engine::Device& device, uint32_t group_size)
+        : device_(device), group_size_(group_size), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, group_size}}),
+          warmup_(device, kernels_, kernelsToWarm()) {}
 
     engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                            const FractureOptions& options) override {
@@ -74,11 +76,11 @@ private:
         std::vector<Double3> local_sites;
     };
 
-    // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit. Going through all sites, which
-    // the lanes do together, takes its part of them.
-    static uint32_t turnBudget(const engine::Device& device, Search search, uint32_t sites) {
-        const uint32_t together = search == Search::Linear ? 2 * (sites / LINEAR_AT_ONCE + 1) : 0;
-        return device.isCpu() ? (60'000 - together) / device.subgroupSize() : 1u << 20;
+    // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit. Fetching all sites and going
+    // through them, which the lanes do together, takes its part of them.
+    uint32_t turnBudget(Search search, uint32_t sites) const {
+        const uint32_t together = search == Search::Linear ? 2 * (sites / LINEAR_AT_ONCE + sites / group_size_ + 2) : 0;
+        return device_.isCpu() ? (60'000 - together) / device_.subgroupSize() : 1u << 20;
     }
     // Triangles whose vertices one binding can hold; whole multiples of any alignment of views.
     static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
@@ -218,7 +220,7 @@ private:
         upload.copy(commands, *staging);
         const Search search = searchOf(options, p.grid);
         recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, search,
-                   turnBudget(device_, search, capacity.sites)});
+                   turnBudget(search, capacity.sites)});
         if (auto ok = recorder.status(); !ok) return ok.error();
         auto start = Clock::now();
         if (auto ok = commands.submitAndWait(); !ok) return ok.error();
@@ -234,15 +236,26 @@ private:
     }
 
     engine::Device& device_;
+    uint32_t group_size_;
     engine::KernelLibrary kernels_;
     engine::KernelWarmup warmup_;
     Capacities::Rare met_; // by earlier events: recorded from the start, since a second attempt costs more than idle dispatches
 };
 
+engine::Result<void> checkGroupSize(uint32_t size, const VkPhysicalDeviceLimits& limits) {
+    const uint32_t most = std::min({256u, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]});
+    if (std::has_single_bit(size) && size >= 8 && size <= most) return {};
+    return engine::Error{engine::ErrorCode::BadInput, "workgroups of " + std::to_string(size) +
+                                                          " lanes; give a power of two from 8 to " +
+                                                          std::to_string(std::bit_floor(most))};
+}
+
 } // namespace
 
-engine::Result<std::unique_ptr<Fracture>> Fracture::create(engine::Device& device) {
-    return std::unique_ptr<Fracture>(std::make_unique<FractureDevice>(device));
+engine::Result<std::unique_ptr<Fracture>> Fracture::create(engine::Device& device, uint32_t group_size) {
+    if (group_size == 0) group_size = GROUP_SIZE;
+    if (auto sound = checkGroupSize(group_size, device.limits()); !sound) return sound.error();
+    return std::unique_ptr<Fracture>(std::make_unique<FractureDevice>(device, group_size));
 }
 
 } // namespace brittle

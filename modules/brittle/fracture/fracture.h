@@ -47,7 +47,10 @@ struct FractureResult {
 
 class Fracture {
 public:
-    static engine::Result<std::unique_ptr<Fracture>> create(engine::Device& device);
+    // `group_size`: lanes of a workgroup in the kernels that run a lane an element, a power of two from 8 to 256 that the
+    // device takes, or 0 for the usual number. It decides how work is spread over the device; fragments are the same, bit for
+    // bit. Errors: BadInput (another group size).
+    static engine::Result<std::unique_ptr<Fracture>> create(engine::Device& device, uint32_t group_size = 0);
     virtual ~Fracture() = default;
     // Errors: BadInput (no sites, sites too far away), Capacity (names the pool and what it lacked), Device.
     virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
