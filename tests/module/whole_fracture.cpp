@@ -1,8 +1,9 @@
 #include "tests/module/whole_fracture.h"
 
 #include "modules/brittle/export/glb.h"
+#include "modules/brittle/fracture/refracture.h"
 #include "modules/brittle/fracture/verify.h"
-#include "modules/brittle/mesh/check.h"
+#include "modules/brittle/mesh/measures.h"
 #include "modules/brittle/mesh/primitives.h"
 #include "tests/engine/test_device.h"
 #include "tests/reference/contract.h"
@@ -42,7 +43,10 @@ private:
 };
 SharedFracture& shared_fracture = *static_cast<SharedFracture*>(testing::AddGlobalTestEnvironment(new SharedFracture));
 
-reference::FragmentFile exported(const brittle::FragmentSet& fragments) {
+// As a break of the model at hand, whatever was cut before.
+reference::FragmentFile exported(brittle::FragmentSet fragments) {
+    for (brittle::Fragment& fragment : fragments.fragments)
+        fragment.earlier_index_count = 0;
     const auto bytes = brittle::encodeGlb(fragments);
     EXPECT_TRUE(bytes) << bytes.error().message;
     const std::string path = testing::TempDir() + "brittle_contract_" + std::to_string(getpid()) + ".glb";
@@ -101,14 +105,33 @@ brittle::ImportedMesh boxOf(const brittle::Double3& lower, const brittle::Double
     return box;
 }
 
+Model modelFrom(const brittle::FragmentSet& set, size_t fragment) {
+    auto prepared = brittle::prepareFragment(set, fragment);
+    EXPECT_TRUE(prepared) << prepared.error().message;
+    Model model{std::move(*prepared), {}};
+    const brittle::Fragment& f = set.fragments[fragment];
+    for (uint32_t k = 0; k < f.outer_index_count + f.inner_index_count; k += 3) {
+        reference::Triangle& triangle = model.triangles.emplace_back();
+        for (uint32_t c = 0; c < 3; ++c)
+            for (size_t axis = 0; axis < 3; ++axis)
+                triangle[c][axis] =
+                    set.center[axis] + set.vertices[f.first_vertex + set.indices[f.first_index + k + c]].position[axis];
+    }
+    return model;
+}
+
 void expectContract(const Model& model, const FractureOptions& options) {
     const auto result = fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
     ASSERT_TRUE(result) << result.error().message;
-    expectCountsAddUp(*result);
-    const brittle::MeshMeasures measures = brittle::inspectMesh(model.prepared.mesh, model.prepared.topology).measures;
-    const auto own = brittle::verifyContract(model.prepared.mesh, measures, result->fragments, result->sites);
+    expectContract(model, *result);
+}
+
+void expectContract(const Model& model, const FractureResult& result) {
+    expectCountsAddUp(result);
+    const brittle::MeshMeasures measures = brittle::measureMesh(model.prepared.mesh);
+    const auto own = brittle::verifyContract(model.prepared.mesh, measures, result.fragments, result.sites);
     EXPECT_TRUE(own.holds()) << own.violation();
-    const reference::ContractReport report = reference::checkContract(exported(result->fragments), model.triangles);
+    const reference::ContractReport report = reference::checkContract(exported(result.fragments), model.triangles);
     EXPECT_TRUE(report.holds()) << report.text();
 }
 

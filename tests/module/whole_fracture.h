@@ -25,7 +25,11 @@ Model modelFrom(const brittle::ImportedMesh& imported);
 Model modelFrom(const std::string& name);
 brittle::ImportedMesh boxOf(const brittle::Double3& lower, const brittle::Double3& upper);
 
+// A fragment, to be broken again.
+Model modelFrom(const brittle::FragmentSet& set, size_t fragment);
+
 void expectContract(const Model& model, const brittle::FractureOptions& options);
+void expectContract(const Model& model, const brittle::FractureResult& result);
 // The same with sites placed by the pattern, so many at a time.
 void expectContractOf(const Model& model, std::initializer_list<uint32_t> site_counts);
 // Of sites given by hand.

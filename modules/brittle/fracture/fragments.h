@@ -20,10 +20,11 @@ struct Fragment {
     uint32_t cell = 0;         // index of its site among the sites used
     uint32_t first_vertex = 0; // added to every index, as vertexOffset of a draw command
     uint32_t vertex_count = 0;
-    uint32_t first_index = 0; // outer triangles first, inner ones after them
-    uint32_t outer_index_count = 0;
-    uint32_t inner_index_count = 0;
-    Double3 site = {0, 0, 0}; // model space
+    uint32_t first_index = 0;         // outer triangles first, inner ones after them
+    uint32_t outer_index_count = 0;   // on the surface of what was broken
+    uint32_t earlier_index_count = 0; // of those, the last: on faces of earlier cuts, to be drawn as inner ones
+    uint32_t inner_index_count = 0;   // on faces cut now, shared with other fragments
+    Double3 site = {0, 0, 0};         // model space
     double volume = 0;
     Double3 centroid = {0, 0, 0}; // relative to FragmentSet::center
     // Of inertia about the centroid, for a density of 1: xx yy zz xy xz yz of the tensor, model units to the fifth.

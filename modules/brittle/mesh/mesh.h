@@ -17,11 +17,12 @@ using Float2 = std::array<float, 2>;
 using Index3 = std::array<uint32_t, 3>;
 
 struct Mesh {
-    Double3 center = {0, 0, 0};         // model space, added to every position
-    std::vector<Float3> positions;      // relative to `center`, in model units
-    std::vector<Index3> triangles;      // counter-clockwise seen from outside
-    std::vector<Float3> corner_normals; // three per triangle, unit length
-    std::vector<Float2> corner_uvs;     // three per triangle
+    Double3 center = {0, 0, 0};          // model space, added to every position
+    std::vector<Float3> positions;       // relative to `center`, in model units
+    std::vector<Index3> triangles;       // counter-clockwise seen from outside
+    std::vector<Float3> corner_normals;  // three per triangle, unit length
+    std::vector<Float2> corner_uvs;      // three per triangle
+    uint32_t own_triangles = 0xffffffff; // that many are the model's own surface; the rest are faces of earlier cuts
 };
 
 // What the kernels need beside the triangles. Edges run from the lower to the higher vertex index.

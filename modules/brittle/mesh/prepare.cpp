@@ -5,50 +5,15 @@
 #include "modules/brittle/mesh/normals.h"
 #include "modules/brittle/mesh/topology.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "modules/brittle/mesh/welder.h"
 
 #include <algorithm>
-#include <bit>
 #include <string>
 
 namespace brittle {
 namespace {
 
-// Fourth powers of lengths have to fit into floats: kernels multiply areas by areas.
-constexpr double kMinDiagonal = 1e-9, kMaxDiagonal = 1e9;
-
 engine::Error badMesh(std::string message) { return {engine::ErrorCode::BadInput, std::move(message)}; }
-
-// Open addressing over bit patterns; -0 and 0 are one.
-class Welder {
-public:
-    explicit Welder(size_t expected) : slots_(std::bit_ceil(2 * expected + 2), kEmpty) {}
-
-    uint32_t indexOf(Float3 p, std::vector<Float3>& positions) {
-        for (float& x : p)
-            x += 0.0f; // turns -0 into 0
-        for (size_t slot = hash(p);; ++slot) {
-            uint32_t& entry = slots_[slot & (slots_.size() - 1)];
-            if (entry == kEmpty) {
-                entry = static_cast<uint32_t>(positions.size());
-                positions.push_back(p);
-                return entry;
-            }
-            if (positions[entry] == p) return entry;
-        }
-    }
-
-private:
-    static constexpr uint32_t kEmpty = 0xffffffff;
-    static size_t hash(const Float3& p) {
-        uint64_t h = 0;
-        for (const float x : p) {
-            h = (h ^ std::bit_cast<uint32_t>(x)) * 0x9E3779B97F4A7C15u;
-            h ^= h >> 29;
-        }
-        return h;
-    }
-    std::vector<uint32_t> slots_;
-};
 
 std::vector<char> usedVertices(const ImportedMesh& imported) {
     std::vector<char> used(imported.positions.size(), 0);
@@ -104,25 +69,6 @@ void addTriangles(const ImportedMesh& imported, const std::vector<uint32_t>& ind
     }
 }
 
-// Vertices of which every triangle has collapsed must not count either.
-void dropUnusedPositions(Mesh& mesh) {
-    constexpr uint32_t kUnused = 0xffffffff;
-    std::vector<uint32_t> index(mesh.positions.size(), kUnused);
-    for (const Index3& t : mesh.triangles)
-        for (const uint32_t v : t)
-            index[v] = 0;
-    uint32_t kept = 0;
-    for (size_t v = 0; v < index.size(); ++v) {
-        if (index[v] == kUnused) continue;
-        mesh.positions[kept] = mesh.positions[v];
-        index[v] = kept++;
-    }
-    mesh.positions.resize(kept);
-    for (Index3& t : mesh.triangles)
-        for (uint32_t& v : t)
-            v = index[v];
-}
-
 // Reversed triangles for a mesh whose volume is negative: the solid is then what the surface encloses.
 void turnInsideOut(Mesh& mesh) {
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -156,6 +102,24 @@ void cleanUvs(Mesh& mesh) {
 }
 
 } // namespace
+
+void dropUnusedPositions(Mesh& mesh) {
+    constexpr uint32_t kUnused = 0xffffffff;
+    std::vector<uint32_t> index(mesh.positions.size(), kUnused);
+    for (const Index3& t : mesh.triangles)
+        for (const uint32_t v : t)
+            index[v] = 0;
+    uint32_t kept = 0;
+    for (size_t v = 0; v < index.size(); ++v) {
+        if (index[v] == kUnused) continue;
+        mesh.positions[kept] = mesh.positions[v];
+        index[v] = kept++;
+    }
+    mesh.positions.resize(kept);
+    for (Index3& t : mesh.triangles)
+        for (uint32_t& v : t)
+            v = index[v];
+}
 
 engine::Result<WeldedMesh> weldMesh(const ImportedMesh& imported) {
     if (imported.triangles.empty()) return badMesh("no triangles in the model");

@@ -6,6 +6,9 @@
 
 namespace brittle {
 
+// Fourth powers of lengths have to fit into floats: kernels multiply areas by areas.
+constexpr double kMinDiagonal = 1e-9, kMaxDiagonal = 1e9;
+
 // What was done to the mesh on the way, for the doctor.
 struct PrepareNotes {
     uint32_t vertices_in = 0; // in the file
@@ -28,6 +31,9 @@ struct WeldedMesh {
     PrepareNotes notes;
 };
 engine::Result<WeldedMesh> weldMesh(const ImportedMesh& imported);
+
+// Leaves out positions that no triangle names: of collapsed triangles.
+void dropUnusedPositions(Mesh& mesh);
 
 // The second half: leaves out vertices that no triangle uses, turns an inside-out mesh and completes normals and topology.
 // There must be a triangle.
