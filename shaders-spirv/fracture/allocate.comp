@@ -9,28 +9,29 @@ READS(1, uint, component_start);
 READS(2, uvec4, class_offsets);
 READS(3, uvec2, fates);
 WRITES(4, uvec4, demands);  // fragment, triangles
-WRITES(5, uvec4, shares);   // outer and inner triangles before this component's in its fragment; of the whole fragment
+WRITES(5, uvec4, shares);   // two each: triangles of every class before this component's in its fragment; of the whole fragment
 READS(6, uint, parts);       // by owner
 READS(7, uint, part_owners);
 #include "lib/parts_of.glsl"
 
-uvec2 sizeOf(uint c) { return class_offsets[component_start[c + 1u]].xy - class_offsets[component_start[c]].xy; }
+uvec3 sizeOf(uint c) { return class_offsets[component_start[c + 1u]].xyz - class_offsets[component_start[c]].xyz; }
 
 void main() {
     uint c = flatIndex();
     if (c >= counts[COUNT_COMPONENTS] || counts[STATUS_FAILED] != 0u) return;
     uvec2 fate = fates[c];
     bool part = fate.x == FATE_CAVITY;
-    uvec2 total = sizeOf(fate.y), before = part ? total : uvec2(0u);
+    uvec3 total = sizeOf(fate.y), before = part ? total : uvec3(0u);
     uint first = firstPartFrom(fate.y), last = firstPartFrom(fate.y + 1u);
     if (last - first > MOST_TURNS) atomicOr(counts[STATUS_BAD_UNION], 1u);
     last = min(last, first + MOST_TURNS);
     for (uint k = first; k < last; k++) {
-        uvec2 size = sizeOf(parts[k]);
+        uvec3 size = sizeOf(parts[k]);
         total += size;
-        before += part && parts[k] < c ? size : uvec2(0u);
+        before += part && parts[k] < c ? size : uvec3(0u);
     }
-    bool fragment = fate.x == FATE_FRAGMENT && total.x + total.y > 0u;
-    demands[c] = fragment ? uvec4(1u, total.x + total.y, 0u, 0u) : uvec4(0u);
-    shares[c] = uvec4(before, total);
+    uint size = total.x + total.y + total.z;
+    demands[c] = fate.x == FATE_FRAGMENT && size > 0u ? uvec4(1u, size, 0u, 0u) : uvec4(0u);
+    shares[2u * c] = uvec4(before, 0u);
+    shares[2u * c + 1u] = uvec4(total, 0u);
 }

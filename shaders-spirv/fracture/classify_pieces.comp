@@ -1,4 +1,5 @@
-// Outer or inner, for every sorted triangle: a cap is inner while the piece behind it exists.
+// Own surface, face of an earlier cut or inner, for every sorted triangle: a cap is inner while the piece behind it exists.
+// Triangles of the mesh from `own_triangles` on lie on faces of earlier cuts.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -11,7 +12,10 @@ READS(3, uint, components);
 READS(4, uvec2, fates);
 WRITES(5, uvec4, classes);
 READS(6, uint, parents);
-layout(push_constant) uniform Push { uint triangle_count; };
+layout(push_constant) uniform Push {
+    uint triangle_count;
+    uint own_triangles;
+};
 #include "lib/piece_behind.glsl"
 
 void main() {
@@ -23,5 +27,6 @@ void main() {
     uint mate = components[behind];
     bool faced = mate != NO_INDEX && fates[mate != NO_INDEX ? mate : components[t]].x != FATE_DISSOLVED;
     bool stays = fates[components[t]].x != FATE_DISSOLVED;
-    classes[k] = uvec4(stays && !(cap && faced) ? 1u : 0u, stays && cap && faced ? 1u : 0u, 0u, 0u);
+    bool inner = cap && faced, earlier = !cap && sources[t] >= own_triangles;
+    classes[k] = uvec4(stays && !inner && !earlier ? 1u : 0u, stays && earlier ? 1u : 0u, stays && inner ? 1u : 0u, 0u);
 }

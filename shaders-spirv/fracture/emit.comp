@@ -1,4 +1,4 @@
-// Writes the triangles into the scene's pools, outer ones first. Outer corners take normal and texture coordinates from the
+// Writes the triangles into the scene's pools: the model's own surface, faces of earlier cuts, inner ones. Outer corners take normal and texture coordinates from the
 // mesh triangle that they lie on, by their barycentric place in it; inner ones get the bisector's normal and texture
 // coordinates in model units along it.
 #version 450
@@ -69,12 +69,11 @@ void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_VALID] || counts[STATUS_FAILED] != 0u) return;
     uint t = order[k], c = components[t];
-    uvec4 rank = class_offsets[k], until = class_offsets[k + 1u], share = shares[c];
-    bool outer = until.x != rank.x, inner = until.y != rank.y;
-    if (!outer && !inner) return;
-    uvec2 within = rank.xy - class_offsets[component_start[c]].xy + share.xy;
+    uvec3 rank = class_offsets[k].xyz, until = class_offsets[k + 1u].xyz, total = shares[2u * c + 1u].xyz;
+    if (rank == until) return;
+    uvec3 within = rank - class_offsets[component_start[c]].xyz + shares[2u * c].xyz;
     uint first = demand_offsets[fates[c].y].y;
-    uint local = outer ? within.x : share.z + within.y;
+    uint local = until.x != rank.x ? within.x : total.x + (until.y != rank.y ? within.y : total.y + within.z);
     uint to_triangle = first + local - first_triangle;
     if (first + local < first_triangle || to_triangle >= triangle_count) return;
     uvec4 piece = pieces[t];

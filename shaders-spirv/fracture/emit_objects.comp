@@ -1,4 +1,4 @@
-// Draw commands (outer, inner), bounds and records of the fragments, less their cavities.
+// Draw commands (outer; inner with the faces of earlier cuts), bounds and records of the fragments, less their cavities.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -64,15 +64,15 @@ void main() {
     uvec4 at = demand_offsets[c];
     if (demand_offsets[c + 1u].x == at.x) return;
     uint f = at.x;
-    uvec2 sizes = shares[c].zw;
+    uvec3 sizes = shares[2u * c + 1u].xyz; // own surface, faces of earlier cuts, inner
     FragmentRecord r = withParts(c, records[c]);
     draw(2u * f, 3u * sizes.x, 3u * at.y, 3u * at.y);
-    draw(2u * f + 1u, 3u * sizes.y, 3u * (at.y + sizes.x), 3u * at.y);
+    draw(2u * f + 1u, 3u * (sizes.y + sizes.z), 3u * (at.y + sizes.x), 3u * at.y);
     vec3 low = r.low.xyz * model_unit, high = r.high.xyz * model_unit;
     bounds[f] = Bounds(float[3](low.x, low.y, low.z), float[3](high.x, high.y, high.z));
     matrices[f].model = mat4(1.0);
-    r.range = uvec4(f, at.y, sizes);
-    r.fate = uvec4(fates[c], r.fate.zw);
+    r.range = uvec4(f, at.y, sizes.x + sizes.y, sizes.z);
+    r.fate = uvec4(fates[c], r.fate.z, sizes.y);
     fragments[f] = r;
     placeObject(f, r.balance.xyz * model_unit);
 }

@@ -21,7 +21,7 @@ struct FragmentRecord {
     RecordFloat4 products; // and xy xz yz; w unused
     RecordFloat4 low;      // bounds, relative to the mesh's center
     RecordFloat4 high;
-    RecordUint4 fate;      // FATE_*, the component it belongs to, cell, unused
+    RecordUint4 fate;      // FATE_*, the component it belongs to, cell, outer triangles that lie on faces of earlier cuts
     RecordUint4 range;     // fragment, first triangle in the pools, outer triangles, inner triangles
 };
 

@@ -18,9 +18,10 @@ using brittle::FractureOptions;
 using brittle::FragmentRecord;
 using brittle::FragmentVertex;
 using Corners = std::array<std::array<float, 3>, 3>;
+using Word3 = std::array<uint32_t, 3>;
 
 struct Demand {
-    std::vector<Word2> sizes; // outer and inner triangles of every component
+    std::vector<Word3> sizes; // triangles of every component: own surface, faces of earlier cuts, inner
     std::vector<Word2> fates;
 };
 
@@ -31,9 +32,9 @@ Demand randomDemand(uint32_t count) {
     Demand demand;
     std::vector<uint32_t> fragments;
     for (uint32_t c = 0; c < count; ++c) {
-        demand.sizes.push_back({below(5), below(5) + 1});
+        demand.sizes.push_back({below(5), below(4), below(5) + 1});
         demand.fates.push_back({c % 7 == 3 ? FATE_DISSOLVED : FATE_FRAGMENT, c});
-        if (c % 7 == 3) demand.sizes[c] = {0, 0};
+        if (c % 7 == 3) demand.sizes[c] = {0, 0, 0};
         if (c % 7 != 3 && c % 3 != 1) fragments.push_back(c);
     }
     for (uint32_t c = 0; c < count; ++c)
@@ -48,13 +49,15 @@ void expectAllocated(const Demand& demand) {
     counts[COUNT_COMPONENTS] = n;
     std::vector<uint32_t> start = {0}, hollow;
     std::vector<Word4> class_offsets = {{0, 0, 0, 0}}, demands, shares;
-    std::vector<Word2> totals(n, Word2{0, 0});
+    std::vector<Word3> totals(n, Word3{0, 0, 0});
     for (uint32_t c = 0; c < n; ++c) {
-        const auto [outer, inner] = demand.sizes[c];
-        start.push_back(start.back() + outer + inner);
-        for (uint32_t k = 0; k < outer + inner; ++k) {
-            const Word4 last = class_offsets.back();
-            class_offsets.push_back({last[0] + (k < outer), last[1] + (k >= outer), 0, 0});
+        start.push_back(start.back());
+        for (size_t side = 0; side < 3; ++side) {
+            start.back() += demand.sizes[c][side];
+            for (uint32_t k = 0; k < demand.sizes[c][side]; ++k) {
+                class_offsets.push_back(class_offsets.back());
+                ++class_offsets.back()[side];
+            }
         }
         if (demand.fates[c][0] == FATE_CAVITY) hollow.push_back(c);
     }
@@ -62,15 +65,17 @@ void expectAllocated(const Demand& demand) {
     for (const bool cavities : {false, true})
         for (uint32_t c = 0; c < n; ++c) {
             if ((demand.fates[c][0] == FATE_CAVITY) != cavities) continue;
-            Word2& total = totals[demand.fates[c][1]];
-            shares.resize(n);
-            shares[c] = {total[0], total[1], 0, 0};
-            total = {total[0] + demand.sizes[c][0], total[1] + demand.sizes[c][1]};
+            Word3& total = totals[demand.fates[c][1]];
+            shares.resize(2 * size_t{n});
+            shares[2 * c] = {total[0], total[1], total[2], 0};
+            for (size_t side = 0; side < 3; ++side)
+                total[side] += demand.sizes[c][side];
         }
     for (uint32_t c = 0; c < n; ++c) {
         const auto [fate, owner] = demand.fates[c];
-        shares[c] = {shares[c][0], shares[c][1], totals[owner][0], totals[owner][1]};
-        demands.push_back(fate == FATE_FRAGMENT ? Word4{1, totals[c][0] + totals[c][1], 0, 0} : Word4{0, 0, 0, 0});
+        const Word3& total = totals[owner];
+        shares[2 * c + 1] = {total[0], total[1], total[2], 0};
+        demands.push_back(fate == FATE_FRAGMENT ? Word4{1, total[0] + total[1] + total[2], 0, 0} : Word4{0, 0, 0, 0});
     }
     counts[COUNT_PARTS] = static_cast<uint32_t>(hollow.size());
     const auto owner = [&](uint32_t c) { return demand.fates[c][1]; };
@@ -81,13 +86,13 @@ void expectAllocated(const Demand& demand) {
         part_owners.push_back(owner(c));
     const engine::Buffer hollows = bufferOf(hollow), owners = bufferOf(part_owners), first = bufferOf(start),
                          classes = bufferOf(class_offsets), fates = bufferOf(demand.fates);
-    const engine::Buffer asked = blankBuffer<Word4>(n), share = blankBuffer<Word4>(n);
+    const engine::Buffer asked = blankBuffer<Word4>(n), share = blankBuffer<Word4>(2 * size_t{n});
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("allocate"), n, engine::NoPush{},
                           {counts.words, first, classes, fates, asked, share, hollows, owners});
     });
     EXPECT_EQ(valuesOf<Word4>(asked, n), demands);
-    EXPECT_EQ(valuesOf<Word4>(share, n), shares);
+    EXPECT_EQ(valuesOf<Word4>(share, 2 * size_t{n}), shares);
 }
 
 TEST(SmallAllocation, GivesFragmentsRoomForTheirCavities) {
@@ -111,6 +116,7 @@ struct Emitted {
     std::vector<uint32_t> indices = event.read<uint32_t>(event.scene().indices, 3 * triangles);
     uint32_t first(uint32_t f) const { return fragments[f].range[1]; }
     uint32_t outer(uint32_t f) const { return fragments[f].range[2]; }
+    uint32_t earlier(uint32_t f) const { return fragments[f].fate[3]; } // of the outer ones, the last
     uint32_t size(uint32_t f) const { return outer(f) + fragments[f].range[3]; }
     Corners triangle(uint32_t t) const {
         Corners corners;
@@ -134,16 +140,16 @@ void expectDense(const Emitted& e) {
     EXPECT_EQ(at, e.triangles);
 }
 
-// By hand, of every fragment: its triangles on the outside and the inside, by their corners.
+// By hand, of every fragment: its triangles by their corners.
 struct Sides {
-    std::vector<Corners> outer, inner;
+    std::vector<Corners> own, earlier, inner;
 };
 
 std::map<uint32_t, Sides> sidesOf(const DeviceEvent& event) {
     const brittle::EventBuffers& b = event.buffers();
     const uint32_t n = event[COUNT_TRIANGLES], caps = event.triangleCount() + event[COUNT_FAN_TRIANGLES];
     const auto pieces = event.read<Word4>(b.pieces, n);
-    const auto components = event.read<uint32_t>(b.components, n);
+    const auto components = event.read<uint32_t>(b.components, n), sources = event.read<uint32_t>(b.sources, n);
     const auto fates = event.read<Word2>(b.fates, event[COUNT_COMPONENTS]);
     const auto positions = event.read<std::array<float, 4>>(b.positions, event[COUNT_POINTS]);
     const auto stays = [&](uint32_t t) { return components[t] != NO_INDEX && fates[components[t]][0] != FATE_DISSOLVED; };
@@ -155,7 +161,8 @@ std::map<uint32_t, Sides> sidesOf(const DeviceEvent& event) {
             std::copy_n(positions[pieces[t][k]].begin(), 3, corners[k].begin());
         Sides& side = sides[fates[components[t]][1]];
         const bool faced = t >= caps && stays(caps + ((t - caps) ^ 1));
-        (faced ? side.inner : side.outer).push_back(corners);
+        const bool earlier = t < caps && sources[t] >= event.mesh().own_triangles;
+        (faced ? side.inner : earlier ? side.earlier : side.own).push_back(corners);
     }
     return sides;
 }
@@ -167,10 +174,15 @@ void expectEveryTriangleOnce(const Emitted& e) {
         Sides& expected = sides[e.fragments[f].fate[1]];
         Sides found;
         for (uint32_t k = 0; k < e.size(f); ++k)
-            (k < e.outer(f) ? found.outer : found.inner).push_back(e.triangle(e.first(f) + k));
-        for (std::vector<Corners>* list : {&expected.outer, &expected.inner, &found.outer, &found.inner})
-            std::sort(list->begin(), list->end());
-        ASSERT_TRUE(found.outer == expected.outer) << "fragment " << f;
+            (k >= e.outer(f)                  ? found.inner
+             : k >= e.outer(f) - e.earlier(f) ? found.earlier
+                                              : found.own)
+                .push_back(e.triangle(e.first(f) + k));
+        for (Sides* sides_of : {&expected, &found})
+            for (std::vector<Corners>* list : {&sides_of->own, &sides_of->earlier, &sides_of->inner})
+                std::sort(list->begin(), list->end());
+        ASSERT_TRUE(found.own == expected.own) << "fragment " << f;
+        ASSERT_TRUE(found.earlier == expected.earlier) << "fragment " << f;
         ASSERT_TRUE(found.inner == expected.inner) << "fragment " << f;
     }
 }
@@ -179,7 +191,7 @@ void expectDrawn(const Emitted& e) {
     const auto commands = e.event.read<gpu::DrawCommand>(e.event.scene().draw_commands, 2 * e.count);
     const auto bounds = e.event.read<gpu::Bounds>(e.event.scene().bounds, e.count);
     for (uint32_t f = 0; f < e.count; ++f) {
-        const std::array<uint32_t, 2> sizes = {e.outer(f), e.fragments[f].range[3]};
+        const std::array<uint32_t, 2> sizes = {e.outer(f) - e.earlier(f), e.fragments[f].range[3] + e.earlier(f)};
         for (uint32_t side = 0; side < 2; ++side) {
             const gpu::DrawCommand& command = commands[2 * f + side];
             ASSERT_EQ(command.index_count, 3 * sizes[side]);
@@ -229,6 +241,14 @@ TEST(SmallEmission, OfEveryTriangleOnce) {
     const brittle::PreparedMesh bumpy = solidOf("bumpy:1");
     for (const uint32_t count : {1u, 2u, 63u, 64u, 65u})
         expectEmitted(bumpy, {count, count, {}});
+}
+
+TEST(SmallEmission, DrawsFacesOfEarlierCutsAsInnerOnes) {
+    brittle::PreparedMesh bumpy = solidOf("bumpy:1");
+    for (const uint32_t own : {0u, 1u, 40u, 79u}) {
+        bumpy.mesh.own_triangles = own;
+        expectEmitted(bumpy, {.site_count = 20, .seed = 3});
+    }
 }
 
 TEST(Emission, OfManyFragments) { expectEmitted(solidOf("bumpy:2"), {.site_count = 1234, .seed = 5}); }

@@ -99,6 +99,19 @@ TEST(Glb, FragmentsWithoutOneOfTheSides) {
     EXPECT_EQ(json["meshes"][1]["primitives"][0]["material"], 1);
 }
 
+TEST(Glb, FacesOfEarlierCutsAreInner) {
+    FragmentSet set = support::cubeInTwo().set;
+    const uint32_t outer = set.fragments[0].outer_index_count, inner = set.fragments[0].inner_index_count;
+    set.fragments[0].earlier_index_count = 6;
+    const nlohmann::json json = jsonOf(*encodeGlb(set));
+    const nlohmann::json primitives = json["meshes"][0]["primitives"];
+    ASSERT_EQ(primitives.size(), 2u);
+    EXPECT_EQ(primitives[0]["material"], 0);
+    EXPECT_EQ(json["accessors"][primitives[0]["indices"].get<size_t>()]["count"], outer - 6);
+    EXPECT_EQ(primitives[1]["material"], 1);
+    EXPECT_EQ(json["accessors"][primitives[1]["indices"].get<size_t>()]["count"], inner + 6);
+}
+
 // The reader counts normals that are not of unit length as faults.
 TEST(Glb, NormalsThatAreNone) {
     FragmentSet set = support::cubeInTwo().set;

@@ -2,10 +2,12 @@
 #include "modules/brittle/fracture/refracture.h"
 #include "tests/module/whole_fracture.h"
 #include "tests/support/shared_meshes.h"
+#include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 namespace {
@@ -79,5 +81,134 @@ INSTANTIATE_TEST_SUITE_P(Long, Refracture,
                                                      "fandisk.off", "utah_teapot.stl"},
                                                     2, 9)),
                          nameOf);
+
+// One more fragment set: all of a mesh.
+brittle::FragmentSet wholeOf(const brittle::Mesh& mesh) {
+    brittle::FragmentSet set;
+    set.center = mesh.center;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const brittle::Float3& p = mesh.positions[mesh.triangles[t][k]];
+            set.indices.push_back(static_cast<uint32_t>(set.vertices.size()));
+            set.vertices.push_back({{p[0], p[1], p[2]}, {0, 0, 1}, {0, 0}});
+        }
+    Fragment& all = set.fragments.emplace_back();
+    all.vertex_count = all.outer_index_count = static_cast<uint32_t>(set.vertices.size());
+    return set;
+}
+
+// A block with a slot from the top, which is so wide; where that is negative the walls have passed through each other. Corners
+// are numbered around the outline, first at the front, then at the back.
+brittle::Mesh slotted(float width) {
+    const float e = width / 2;
+    const std::array<brittle::Float2, 8> outline = {
+        {{-1, -1}, {1, -1}, {1, 1}, {e, 1}, {e, -0.5f}, {-e, -0.5f}, {-e, 1}, {-1, 1}}};
+    brittle::Mesh mesh;
+    for (const float y : {-1.0f, 1.0f})
+        for (const brittle::Float2& p : outline)
+            mesh.positions.push_back({p[0], y, p[1]});
+    for (const brittle::Index3& t : {brittle::Index3{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}}) {
+        mesh.triangles.push_back(t);
+        mesh.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+    }
+    for (uint32_t k = 0; k < 8; ++k) {
+        const uint32_t next = (k + 1) % 8;
+        mesh.triangles.push_back({k, k + 8, next});
+        mesh.triangles.push_back({next, k + 8, next + 8});
+    }
+    return mesh;
+}
+
+// Two blocks that have an edge in common.
+brittle::ImportedMesh touchingBlocks() {
+    return support::operator+(boxOf({-1, -1, -1}, {0, 1, 0}), boxOf({0, -1, 0}, {1, 1, 1}));
+}
+
+std::vector<brittle::Double3> lattice(int per_axis, double offset) {
+    std::vector<brittle::Double3> sites;
+    for (int k = 0; k < per_axis * per_axis * per_axis; ++k) {
+        const auto at = [&](int i) { return -1 + (2.0 * i + 1) / per_axis + offset; };
+        sites.push_back({at(k % per_axis), at(k / per_axis % per_axis), at(k / per_axis / per_axis)});
+    }
+    return sites;
+}
+
+void expectBreaksAgain(const Model& model, std::initializer_list<uint32_t> site_counts) {
+    expectContractOf(model, site_counts);
+    for (const int per_axis : {2, 3, 4}) {
+        expectContractAt(model, lattice(per_axis, 0));
+        expectContractAt(model, lattice(per_axis, 1e-8));
+    }
+}
+
+TEST(SmallRefracture, OfAFragmentThatTouchesItselfAlongAnEdge) {
+    FractureOptions whole;
+    whole.site_count = 1;
+    const Model blocks = modelFrom(touchingBlocks());
+    const auto result = fracture().shatter(blocks.prepared.mesh, blocks.prepared.topology, whole);
+    ASSERT_TRUE(result) << result.error().message;
+    ASSERT_EQ(result->fragments.fragments.size(), 1u);
+    const Model again = modelFrom(result->fragments, 0);
+    EXPECT_EQ(again.prepared.mesh.triangles.size(), 24u);
+    EXPECT_EQ(again.prepared.topology.edges.size(), 35u); // of 36
+    expectBreaksAgain(again, {2, 3, 20, 200});
+}
+
+TEST(SmallRefracture, OfASlotThatIsOpen) { expectBreaksAgain(modelFrom(wholeOf(slotted(0x1p-20f)), 0), {2, 3, 20, 200}); }
+
+// Few sites: no cell has walls in it that lie on each other and come out at none of its faces.
+TEST(SmallRefracture, OfASlotWhoseWallsTouchOrPassThroughEachOtherByRounding) {
+    for (const float width : {0x1p-23f, 0.0f, -0x1p-24f, -0x1p-23f, -0x1p-22f}) {
+        SCOPED_TRACE(width);
+        expectBreaksAgain(modelFrom(wholeOf(slotted(width)), 0), {2, 3});
+    }
+}
+
+// Own surface, faces of earlier cuts, inner faces.
+std::array<double, 3> areasOf(const brittle::FragmentSet& set, const Fragment& f) {
+    std::array<double, 3> areas = {0, 0, 0};
+    const uint32_t own = f.outer_index_count - f.earlier_index_count;
+    for (uint32_t k = 0; k < f.outer_index_count + f.inner_index_count; k += 3) {
+        reference::Triangle t;
+        for (uint32_t c = 0; c < 3; ++c)
+            std::copy_n(set.vertices[f.first_vertex + set.indices[f.first_index + k + c]].position, 3, t[c].begin());
+        areas[k < own ? 0 : k < f.outer_index_count ? 1 : 2] += reference::areaOf({&t, 1});
+    }
+    return areas;
+}
+
+TEST(SmallRefracture, KeepsFacesOfEarlierCutsApartFromTheModelsOwnSurface) {
+    Model model = modelFrom("builtin:bumpy:2");
+    std::array<double, 2> before = {0, 0};
+    for (uint32_t depth = 0; depth < 4; ++depth) {
+        FractureOptions options;
+        options.site_count = 4;
+        const auto result = fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
+        ASSERT_TRUE(result) << result.error().message;
+        std::array<double, 3> sum = {0, 0, 0};
+        for (const Fragment& f : result->fragments.fragments)
+            for (size_t side = 0; side < 3; ++side)
+                sum[side] += areasOf(result->fragments, f)[side];
+        if (depth > 0) {
+            EXPECT_NEAR(sum[0], before[0], 1e-5 * before[0]);
+        }
+        EXPECT_NEAR(sum[1], before[1], 1e-5 * before[1]);
+        EXPECT_GT(sum[2], 0);
+        std::mt19937 random;
+        const size_t largest = chosen(result->fragments, Choice::Largest, random);
+        const auto [own, earlier, inner] = areasOf(result->fragments, result->fragments.fragments[largest]);
+        before = {own, earlier + inner};
+        model = modelFrom(result->fragments, largest);
+    }
+}
+
+TEST(SmallRefracture, RefusesWhatIsNoFragment) {
+    brittle::FragmentSet set = wholeOf(slotted(0.5f));
+    EXPECT_TRUE(brittle::prepareFragment(set, 0));
+    EXPECT_EQ(brittle::prepareFragment(set, 1).error().message, "fragment 1 is asked for, but there are 1; count from 0");
+    set.fragments[0].outer_index_count -= 3;
+    EXPECT_EQ(brittle::prepareFragment(set, 0).error().message,
+              "fragment 0 is not closed; break fragments as shatter made them");
+}
 
 } // namespace

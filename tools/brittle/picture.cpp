@@ -61,8 +61,9 @@ std::vector<gpu::DrawCommand> drawCommands(const FragmentSet& set) {
     for (const Fragment& f : set.fragments) {
         const auto instance = static_cast<uint32_t>(commands.size());
         const auto first_vertex = static_cast<int32_t>(f.first_vertex);
-        commands.push_back({f.outer_index_count, 1, f.first_index, first_vertex, instance});
-        commands.push_back({f.inner_index_count, 1, f.first_index + f.outer_index_count, first_vertex, instance + 1});
+        const uint32_t own = f.outer_index_count - f.earlier_index_count, cut = f.inner_index_count + f.earlier_index_count;
+        commands.push_back({own, 1, f.first_index, first_vertex, instance});
+        commands.push_back({cut, 1, f.first_index + own, first_vertex, instance + 1});
     }
     return commands;
 }

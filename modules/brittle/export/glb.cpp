@@ -122,7 +122,8 @@ void GlbEncoder::addFragment(const Fragment& fragment) {
     std::snprintf(name.data(), name.size(), "fragment_%04zu", model_.nodes.size());
     tinygltf::Mesh& mesh = model_.meshes.emplace_back();
     mesh.name = name.data();
-    const uint32_t outer = fragment.outer_index_count, inner = fragment.inner_index_count;
+    const uint32_t outer = fragment.outer_index_count - fragment.earlier_index_count;
+    const uint32_t inner = fragment.inner_index_count + fragment.earlier_index_count;
     if (outer > 0) mesh.primitives.push_back(makePrimitive(fragment, fragment.first_index, outer, kOuter));
     if (inner > 0) mesh.primitives.push_back(makePrimitive(fragment, fragment.first_index + outer, inner, kInner));
     tinygltf::Node& node = model_.nodes.emplace_back();

@@ -224,7 +224,7 @@ void takePieces(const Input& in, Taker& take) {
     b.class_offsets = take.quads(n + 1);
     b.demands = take.quads(c.components);
     b.demand_offsets = take.quads(c.components + 1ull);
-    b.shares = take.quads(c.components);
+    b.shares = take.quads(2ull * c.components);
 }
 
 } // namespace

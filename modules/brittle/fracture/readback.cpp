@@ -55,6 +55,7 @@ Fragment fragmentOf(const FragmentRecord& record, double size, const std::vector
     f.vertex_count = 3 * (record.range[2] + record.range[3]);
     f.first_index = f.first_vertex;
     f.outer_index_count = 3 * record.range[2];
+    f.earlier_index_count = 3 * record.fate[3];
     f.inner_index_count = 3 * record.range[3];
     f.site = f.cell < sites.size() ? sites[f.cell] : Double3{};
     f.volume = static_cast<double>(record.measure[0]) * size * size * size;

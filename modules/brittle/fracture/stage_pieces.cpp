@@ -208,7 +208,10 @@ void recordEmission(const Event& e) {
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.commands().beginLabel("allocate");
-    r.run("classify_pieces", Length::counted(COUNT_VALID), c.triangles,
+    struct Push {
+        uint32_t triangle_count, own_triangles;
+    } push = {c.triangles, e.mesh.own_triangles};
+    r.run("classify_pieces", Length::counted(COUNT_VALID), push,
           {r.counts(), b.values, b.sources, b.components, b.fates, b.classes, b.parents});
     r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
     r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},
