@@ -1,5 +1,6 @@
 // Fragments that are broken again, and their fragments in turn.
 #include "modules/brittle/fracture/refracture.h"
+#include "modules/brittle/mesh/vector_math.h"
 #include "tests/module/whole_fracture.h"
 #include "tests/support/shared_meshes.h"
 #include "tests/support/solids.h"
@@ -81,6 +82,48 @@ INSTANTIATE_TEST_SUITE_P(Long, Refracture,
                                                      "fandisk.off", "utah_teapot.stl"},
                                                     2, 9)),
                          nameOf);
+
+// Cells with corners in the corners of the mesh's box.
+std::vector<brittle::Double3> latticeOver(const brittle::Mesh& mesh, int per_axis) {
+    brittle::Box box;
+    for (const brittle::Float3& p : mesh.positions)
+        box.grow(brittle::operator+(mesh.center, brittle::toDouble(p)));
+    std::vector<brittle::Double3> sites;
+    for (int k = 0; k < per_axis * per_axis * per_axis; ++k) {
+        const brittle::Double3 at = {k % per_axis + 0.5, k / per_axis % per_axis + 0.5, k / per_axis / per_axis + 0.5};
+        brittle::Double3& site = sites.emplace_back();
+        for (size_t axis = 0; axis < 3; ++axis)
+            site[axis] = box.lower[axis] + at[axis] / per_axis * (box.upper[axis] - box.lower[axis]);
+    }
+    return sites;
+}
+
+// Two hollows meet at an edge, which the middle cell has inside: its fragments, and theirs, touch themselves there.
+TEST(QuickRefracture, OfFragmentsOfABoxWithHollowsThatTouch) {
+    const auto hollow = [](double from, double to) { return support::turnedOver(boxOf({from, from, -0.5}, {to, to, 0.5})); };
+    const Model box =
+        modelFrom(support::operator+(support::operator+(boxOf({-1, -1, -1}, {1, 1, 1}), hollow(-0.5, 0)), hollow(0, 0.5)));
+    std::vector<Model> models = {box};
+    size_t touching = 0;
+    for (uint32_t depth = 0; depth < 3; ++depth) {
+        SCOPED_TRACE("depth " + std::to_string(depth));
+        std::vector<Model> next;
+        for (const Model& model : models) {
+            const auto [mesh, topology, notes] = model.prepared;
+            touching += topology.edges.size() < 3 * mesh.triangles.size() / 2 ? 1 : 0;
+            FractureOptions options;
+            options.given_sites = latticeOver(mesh, depth == 1 ? 2 : 3);
+            const auto result = fracture().shatter(mesh, topology, options);
+            ASSERT_TRUE(result) << result.error().message;
+            expectContract(model, *result);
+            if (HasFailure()) return;
+            for (size_t f = 0; f < result->fragments.fragments.size() && next.size() < 30; ++f)
+                next.push_back(modelFrom(result->fragments, f));
+        }
+        models = std::move(next);
+    }
+    EXPECT_GT(touching, 1u); // the box itself, and others
+}
 
 // One more fragment set: all of a mesh.
 brittle::FragmentSet wholeOf(const brittle::Mesh& mesh) {

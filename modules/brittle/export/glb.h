@@ -1,8 +1,9 @@
 // Fragments as a binary glTF file.
 //
 // A node and a mesh per fragment, named fragment_0000 and on, with a primitive for the model's own surface (material `outer`)
-// and one for the faces of this cut and earlier ones (`inner`). Positions are relative to the center of the model's box, which stands in every node's
-// translation, in double: a model far from the origin keeps its bits. extras: site (model space), cell, volume.
+// and one for the faces of this cut and earlier ones (`inner`). Positions are relative to the center of the model's box, which
+// stands in every node's translation, in double: a model far from the origin keeps its bits. extras: site (model space), cell,
+// volume.
 #pragma once
 
 #include "engine/result.h"
