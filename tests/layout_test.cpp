@@ -45,6 +45,8 @@ const std::vector<Row>& rows() {
          sizeof(brittle::FragmentRecord),
          {{"measure", offsetof(brittle::FragmentRecord, measure)},
           {"balance", offsetof(brittle::FragmentRecord, balance)},
+          {"squares", offsetof(brittle::FragmentRecord, squares)},
+          {"products", offsetof(brittle::FragmentRecord, products)},
           {"low", offsetof(brittle::FragmentRecord, low)},
           {"high", offsetof(brittle::FragmentRecord, high)},
           {"fate", offsetof(brittle::FragmentRecord, fate)},
