@@ -4,3 +4,56 @@
 # and the fuzzers of the importers for a minute in all (tools/fuzz.sh runs them for longer).
 # --long adds the long tests: every model there is (tools/corpus.sh fetches some), larger models, more sites and seeds, the slow
 # cases of the kernels.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+long=false
+case "${1:-}" in
+  "") ;;
+  --long) long=true ;;
+  *) echo "usage: tools/test.sh [--long]" >&2; exit 2 ;;
+esac
+
+tools/setup.sh
+logs=build/test-logs
+mkdir -p "$logs"
+summary=()
+ctest_steps=()
+failed=false
+
+# step NAME COMMAND...: runs on after a failure, so that one run tells all.
+step() {
+  local name=$1 start=$SECONDS verdict=passed
+  shift
+  if [ "$1" = ctest ]; then ctest_steps+=("$name"); fi
+  echo "== $name"
+  if ! "$@" </dev/null 2>&1 | tee "$logs/$name.log"; then
+    verdict=FAILED
+    failed=true
+  fi
+  summary+=("$(printf '%-12s %-7s %4d s' "$name" "$verdict" $((SECONDS - start)))")
+}
+
+step build tools/build.sh release all
+if $failed; then exit 1; fi
+step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
+step validation ctest --preset validation --label-regex '^validation$' --no-tests=error
+step build-asan tools/build.sh asan brittle_tests_engine brittle_tests_hard brittle_tests_kernel brittle_tests_module \
+  brittle_tests_reference
+step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
+step build-fuzz tools/build.sh fuzz
+step fuzz ctest --preset fuzz --label-regex '^fuzz$' --no-tests=error --parallel 2
+if $long; then
+  step corpus tools/corpus.sh
+  step long ctest --preset release --label-regex '^long$' --no-tests=error
+fi
+
+echo
+echo "== summary"
+printf '%s\n' "${summary[@]}"
+echo
+for name in "${ctest_steps[@]}"; do
+  echo "-- $name"
+  sed -n '/% tests passed/,$p' "$logs/$name.log"
+done
+if $failed; then exit 1; fi
