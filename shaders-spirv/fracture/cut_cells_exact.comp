@@ -398,9 +398,9 @@ void packList(uint lane) {
     spend(total / LANES + 1u);
 }
 
-void cutCell(uint lane) {
+void cutCell(uint lane, bool searched_before) {
     uint cube = 0u, next_line = 0u, done = 0u, total = 0u;
-    bool last = false, finished = false;
+    bool last = searched_before, finished = false;
     for (uint turn = 0u; turn < 4096u && !finished; turn++) {
         bool all_bins = cube == 2u;
         int width = 2 * ringsOf(cube) + 1;
@@ -459,7 +459,6 @@ void resumeCell(uint lane, uint base, uint open) {
     }
     if (lane == 0u) list_count = open;
     sync();
-    cutByListed(lane, true);
 }
 
 void writeCell(uint lane, uint group) {
@@ -514,7 +513,8 @@ void main() {
     budget = kTurnBudget;
     startFromBox(lane);
     uint left = queued && size_class == 0u ? raw[self * RAW_WORDS] : 0u;
-    if ((left & 0xffu) == CELL_OPEN) resumeCell(lane, self * RAW_WORDS, left >> 8);
-    else cutCell(lane);
+    bool resumed = (left & 0xffu) == CELL_OPEN;
+    if (resumed) resumeCell(lane, self * RAW_WORDS, left >> 8);
+    cutCell(lane, resumed);
     writeCell(lane, group);
 }
