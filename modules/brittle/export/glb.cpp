@@ -51,8 +51,6 @@ private:
     std::vector<FragmentVertex> vertices_;
 };
 
-Double3 positionOf(const FragmentVertex& v) { return toDouble({v.position[0], v.position[1], v.position[2]}); }
-
 // Interpolation leaves normals a little short, and the format asks for unit length. Where there is none the triangle's serves.
 void tidyNormal(FragmentVertex& vertex, const Double3& face_normal) {
     const Double3 normal = toDouble({vertex.normal[0], vertex.normal[1], vertex.normal[2]});

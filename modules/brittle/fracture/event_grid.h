@@ -1,5 +1,5 @@
-// The integer frame of one fracture event: a 24-bit grid around mesh and sites, the box that cells start from, bins for the
-// neighbor search, and columns of triangles for the inside test.
+// The integer frame of one fracture event: a 24-bit grid around mesh and sites, the box that cells start from, and bins for
+// the neighbor search.
 #pragma once
 
 #include "engine/result.h"
@@ -22,6 +22,7 @@ struct EventGrid {
     Int3 box_low{}, box_high{};   // mesh and sites never touch it
     Int4 bins{};                  // per axis; [3]: edge of a bin in grid steps
     uint32_t fullest_bin = 0;     // of given sites
+    double solid_volume = 0;      // of the mesh, cubed grid steps
     // Measures are taken in units of half the grid's edge, where a model of any size is at most 1 from the center.
     float unit() const { return scale * kStep; }
     static constexpr float kStep = 0x1p-23f; // of the grid, in these units
@@ -41,19 +42,11 @@ constexpr int32_t kGridMargin = 8;
 engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count,
                                         bool crowded = false);
 
+// Of the mesh's vertices, from its center.
+double farthestCoordinate(const Mesh& mesh);
+
 Int3 snapToGrid(const EventGrid& grid, const Double3& position);
 Double3 fromGrid(const EventGrid& grid, const Int3& position);
-
-// Triangles by the columns of an (x, y) raster that their boxes cover; the inside test looks along z in one column.
-struct TriangleColumns {
-    int32_t edge = 1; // of a column, grid steps
-    int32_t per_row = 1;
-    std::vector<uint32_t> start; // first entry of each column, and the end
-    std::vector<uint32_t> triangles;
-    std::vector<Int4> occupied; // x and y index, lowest and highest z of its triangles
-    uint32_t tallest = 0;       // the most that lies between the two
-};
-
-TriangleColumns makeColumns(const Mesh& mesh, const EventGrid& grid);
+inline Int4 withLast(const Int3& p, int32_t last) { return {p[0], p[1], p[2], last}; }
 
 } // namespace brittle

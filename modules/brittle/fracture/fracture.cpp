@@ -101,9 +101,7 @@ private:
         if (options.pattern == Pattern::Uniform || !options.given_sites.empty()) return {};
         const Impact& impact = options.impact;
         const Double3 from_center = impact.place - mesh.center;
-        double reach = 0;
-        for (const Float3& p : mesh.positions)
-            reach = std::max({reach, double(std::fabs(p[0])), double(std::fabs(p[1])), double(std::fabs(p[2]))});
+        const double reach = farthestCoordinate(mesh);
         for (double x : from_center)
             if (!(std::fabs(x) <= 16 * reach))
                 return engine::Error{

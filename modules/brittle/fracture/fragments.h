@@ -1,7 +1,7 @@
 // The outcome of one fracture event, read back from the scene buffers.
 #pragma once
 
-#include "modules/brittle/mesh/mesh.h"
+#include "modules/brittle/mesh/vector_math.h"
 
 #include <array>
 #include <cstdint>
@@ -15,6 +15,7 @@ struct FragmentVertex {
     float uv[2];
 };
 static_assert(sizeof(FragmentVertex) == 32);
+inline Double3 positionOf(const FragmentVertex& v) { return toDouble({v.position[0], v.position[1], v.position[2]}); }
 
 struct Fragment {
     uint32_t cell = 0;         // index of its site among the sites used

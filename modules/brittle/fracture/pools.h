@@ -7,6 +7,7 @@
 
 #include "engine/arena.h"
 #include "modules/brittle/fracture/event_grid.h"
+#include "modules/brittle/fracture/triangle_columns.h"
 #include "modules/brittle/mesh/mesh.h"
 #include "shaders-spirv/shared/fracture.h"
 

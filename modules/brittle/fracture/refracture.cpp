@@ -22,8 +22,6 @@ const FragmentVertex& cornerOf(const FragmentSet& set, const Fragment& fragment,
 
 uint32_t cornerCount(const Fragment& fragment) { return fragment.outer_index_count + fragment.inner_index_count; }
 
-Double3 positionOf(const FragmentVertex& v) { return toDouble({v.position[0], v.position[1], v.position[2]}); }
-
 // Within a factor of two of each other the difference of two floats is a float (Sterbenz). A box that is longer than that along
 // an axis is not far from the center, measured by its own length, and stays where it is.
 Double3 exactShift(const Box& box) {

@@ -9,8 +9,6 @@ struct RelaxPush {
     uint32_t slots, seed_low, seed_high;
 };
 
-Int4 withLast(const Int3& p, int32_t last) { return {p[0], p[1], p[2], last}; }
-
 } // namespace
 
 void recordRelaxation(const Event& e) {

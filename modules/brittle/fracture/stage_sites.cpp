@@ -16,8 +16,6 @@ struct PlacePush {
     uint32_t site_count, occupied, seed_low, seed_high, first_try, triangle_count, favor, furthest, tallest;
 };
 
-Int4 withLast(const Int3& p, int32_t last) { return {p[0], p[1], p[2], last}; }
-
 double furthestPlace(const EventGrid& g, const Int3& from) {
     double square = 0;
     for (size_t k = 0; k < 3; k++)
@@ -88,15 +86,15 @@ void recordSiteWelding(const Event& e) {
 void recordBinning(const Event& e) {
     const EventGrid& g = e.grid;
     struct Push {
-        int32_t bins[4], low[4];
+        Int4 bins, low;
         uint32_t site_count;
-    } keep = {{g.bins[0], g.bins[1], g.bins[2], g.bins[3]}, {g.box_low[0], g.box_low[1], g.box_low[2], 0}, e.capacity.sites};
+    } keep = {g.bins, withLast(g.box_low, 0), e.capacity.sites};
     e.record.run("keep_sites", Length::of(e.capacity.sites), keep,
                  {e.b.site_offsets, e.b.raw_sites, e.b.sites, e.b.bin_counts});
     e.record.scan(Length::of(e.capacity.bins), e.b.bin_counts, e.b.sums, e.b.bin_start, {});
     struct BinPush {
         Int4 bins, low;
-    } bin = {g.bins, {g.box_low[0], g.box_low[1], g.box_low[2], 0}};
+    } bin = {g.bins, withLast(g.box_low, 0)};
     e.record.run("bin_sites", Length::of(e.capacity.sites), bin,
                  {e.record.counts(), e.b.sites, e.b.bin_start, e.b.bin_cursors, e.b.loose_sites});
     e.record.run("order_bins", Length::of(e.capacity.sites), bin,

@@ -13,8 +13,6 @@
 namespace brittle {
 namespace {
 
-Double3 positionOf(const FragmentVertex& v) { return toDouble({v.position[0], v.position[1], v.position[2]}); }
-
 // One number per position over all fragments, by open addressing on the bits. -0 and 0 are one.
 class PositionNumbers {
 public:
