@@ -17,7 +17,7 @@ void main() {
     uint at = path[p];
     if ((at & PLACED) != 0u) return;
     uvec4 parent = tree[at >> 1];
-    uint leaf = ((at & 1u) != 0u ? parent.z : parent.y) - 1u, initial = (at & 1u) != 0u ? at >> 1 : parent.x;
+    uint leaf = childAt(at, parent), initial = initialAt(at, parent);
     path[p] = leaf;
     atomicMax(tree[leaf].w, radiusBits(bin_sites[p].xyz - bin_sites[initial].xyz));
     atomicAdd(leaf_counts[leaf], 1u);

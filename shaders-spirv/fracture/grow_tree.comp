@@ -15,8 +15,8 @@ void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_SITES] || counts[COUNT_SITES] < 2u || counts[STATUS_FAILED] != 0u) return;
     uint at = path[p];
-    if ((at & PLACED) != 0u || bids[at] != NO_INDEX - priorityOf(p)) return;
-    uint node = at >> 1, initial = (at & 1u) != 0u ? node : tree[node].x;
+    if ((at & PLACED) != 0u || bids[at] != NO_INDEX - mixed(p)) return;
+    uint node = at >> 1, initial = initialAt(at, tree[node]);
     tree[p].x = initial;
     if ((at & 1u) != 0u) tree[node].z = p + 1u;
     else tree[node].y = p + 1u;

@@ -15,17 +15,13 @@ layout(push_constant) uniform Push {
     ivec4 box_low;
 };
 #include "lib/bin_lines.glsl"
+#define LOOSE loose_sites
+#include "lib/rank.glsl"
 
 void main() {
     uint s = flatIndex();
     if (s >= counts[COUNT_SITES]) return;
     ivec3 p = sites[s].xyz;
-    uint bin = binIndex(binOf(p)), first = bin_start[bin], last = bin_start[bin + 1u], rank = 0u;
-    if (last - first > MOST_IN_A_BIN) {
-        atomicMax(counts[STATUS_CROWDED], last - first);
-        atomicOr(counts[STATUS_FAILED], FAILED_CELLS);
-    }
-    last = min(last, first + MOST_IN_A_BIN);
-    for (uint k = first; k < last; k++) rank += loose_sites[k] < s ? 1u : 0u;
-    bin_sites[first + rank] = ivec4(p, int(s));
+    uint bin = binIndex(binOf(p)), first = bin_start[bin];
+    bin_sites[first + rankIn(first, bin_start[bin + 1u], s)] = ivec4(p, int(s));
 }

@@ -10,18 +10,14 @@ READS(1, uint, path);
 READS(2, uint, leaf_start);
 READS(3, uint, loose_leaves);
 WRITES(4, uint, leaf_sites);
+#define LOOSE loose_leaves
+#include "lib/rank.glsl"
 
 void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_SITES] || counts[COUNT_SITES] < 2u || counts[STATUS_FAILED] != 0u) return;
     uint leaf = path[p];
     if ((leaf & PLACED) != 0u) return;
-    uint first = leaf_start[leaf], last = leaf_start[leaf + 1u], rank = 0u;
-    if (last - first > MOST_IN_A_BIN) {
-        atomicMax(counts[STATUS_CROWDED], last - first);
-        atomicOr(counts[STATUS_FAILED], FAILED_CELLS);
-    }
-    last = min(last, first + MOST_IN_A_BIN);
-    for (uint k = first; k < last; k++) rank += loose_leaves[k] < p ? 1u : 0u;
-    leaf_sites[first + rank] = p;
+    uint first = leaf_start[leaf];
+    leaf_sites[first + rankIn(first, leaf_start[leaf + 1u], p)] = p;
 }

@@ -20,20 +20,6 @@ READS(4, uint, column_triangles);
 READS(5, ivec4, columns); // occupied ones: x, y index, lowest and highest z
 UPDATES(6, uint, raw_sites);
 UPDATES(7, uint, placed);
-layout(push_constant) uniform Push {
-    ivec4 low;    // of the mesh on the grid; w: edge of a column
-    ivec4 high;   // w: columns in a row
-    ivec4 impact; // where the solid is hit; w: contact radius
-    uint site_count;
-    uint occupied;
-    uint seed_low;
-    uint seed_high;
-    uint first_try;
-    uint triangle_count;
-    uint favor; // of 2^32: how often the candidate nearest to the impact is taken
-    uint furthest; // place in the mesh, from the impact
-    uint tallest;  // column: the most that lies between the lowest and the highest z of one
-};
 #include "lib/place_in_mesh.glsl"
 
 #ifdef IMPACT
@@ -84,11 +70,6 @@ void main() {
             budget -= min(budget, 1u);
         }
         done = insideSolid(p, candidate, budget);
-        if (done) {
-            raw_sites[3u * site] = uint(p.x);
-            raw_sites[3u * site + 1u] = uint(p.y);
-            raw_sites[3u * site + 2u] = uint(p.z);
-            placed[site] = 1u;
-        }
+        if (done) place(site, p);
     }
 }

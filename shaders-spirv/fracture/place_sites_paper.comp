@@ -18,20 +18,6 @@ READS(3, uint, column_start);
 READS(4, uint, column_triangles);
 UPDATES(5, uint, raw_sites);
 UPDATES(6, uint, placed);
-layout(push_constant) uniform Push {
-    ivec4 low;    // of the mesh on the grid; w: edge of a column
-    ivec4 high;   // w: columns in a row
-    ivec4 impact; // where the solid is hit; w: contact radius
-    uint site_count;
-    uint occupied;
-    uint seed_low;
-    uint seed_high;
-    uint first_try;
-    uint triangle_count;
-    uint favor; // of 2^32: how often the candidate nearest to the impact is taken
-    uint furthest; // place in the mesh, from the impact
-    uint tallest;  // column: the most that lies between the lowest and the highest z of one
-};
 #include "lib/place_in_mesh.glsl"
 
 shared ivec4 candidates[SITES * CANDIDATES]; // w: whether it lies inside
@@ -85,9 +71,5 @@ void main() {
     if (lane >= SITES || site >= site_count || placed[site] != 0u) return;
     int best = chosen(lane * CANDIDATES, draw(site, 0u, 0u) < favor);
     if (best < 0) return;
-    ivec3 p = candidates[lane * CANDIDATES + uint(best)].xyz;
-    raw_sites[3u * site] = uint(p.x);
-    raw_sites[3u * site + 1u] = uint(p.y);
-    raw_sites[3u * site + 2u] = uint(p.z);
-    placed[site] = 1u;
+    place(site, candidates[lane * CANDIDATES + uint(best)].xyz);
 }

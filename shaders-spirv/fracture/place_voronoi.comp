@@ -15,24 +15,11 @@ layout(push_constant) uniform Push {
     float step_size; // model units per grid step
 };
 #include "lib/place.glsl"
+#include "lib/quotient.glsl"
 
 Plane bisector(ivec3 q, ivec3 s) {
     ivec3 d = s - q;
     return Plane(d, 0u, int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z));
-}
-
-// floor(2^24 num / den) for |num| < 2^25 den, den > 0.
-int64_t quotient24(Wide128 num, Wide128 den) {
-    Wide128 shifted = wideShiftLeft25(den);
-    Wide128 rest = wideAdd(num, shifted);
-    uint64_t q = uint64_t(0);
-    for (uint k = 0u; k < ROLLED(50); k++) {
-        bool take = !wideLess(rest, shifted);
-        if (take) rest = wideSub(rest, shifted);
-        rest = wideDouble(rest);
-        q = (q << 1) | (take ? uint64_t(1) : uint64_t(0));
-    }
-    return int64_t(q) - (int64_t(1) << 49);
 }
 
 float toModel(int64_t x) {
@@ -51,7 +38,7 @@ void main() {
     Wide128 den = wideDouble(turned ? wideNegate(t.volume) : t.volume);
     int64_t x[3];
     for (uint k = 0u; k < ROLLED(3); k++) {
-        x[k] = quotient24(turned ? wideNegate(t.moment[k]) : t.moment[k], den) + (int64_t(q[k]) << POINT_FRACTION_BITS);
+        x[k] = quotientOf(turned ? wideNegate(t.moment[k]) : t.moment[k], den, POINT_FRACTION_BITS) + (int64_t(q[k]) << POINT_FRACTION_BITS);
     }
     uint id = vertex_count + counts[COUNT_CROSSINGS] + counts[COUNT_TRIPLES] + v;
     savePoint(id, x[0], x[1], x[2]);

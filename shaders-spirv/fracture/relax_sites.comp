@@ -24,11 +24,10 @@ layout(push_constant) uniform Push {
     ivec4 box_low;
     ivec4 box_high;
     uint slots;
-    uint seed_low; // of what is drawn: nothing here
-    uint seed_high;
 };
 #include "lib/raw_cell.glsl"
-#include "lib/place_in_mesh.glsl"
+#include "lib/inside_solid.glsl"
+#include "lib/quotient.glsl"
 
 const uint kBits = 12u;
 
@@ -53,23 +52,10 @@ ivec3 footOf(uint id) {
     return id >= BOX_BASE ? p.d * int(p.r >> 1) : p.d / 2;
 }
 
-// floor(num / den) for |num| < 2^25 den, den > 0.
-int quotient(Wide128 num, Wide128 den) {
-    Wide128 shifted = wideShiftLeft25(den), rest = wideAdd(num, shifted);
-    uint q = 0u;
-    for (uint k = 0u; k < ROLLED(26); k++) {
-        bool take = !wideLess(rest, shifted);
-        if (take) rest = wideSub(rest, shifted);
-        rest = wideDouble(rest);
-        q = (q << 1) | (take ? 1u : 0u);
-    }
-    return int(q) - (1 << 25);
-}
-
 ivec3 cornerPlace(uvec3 ids) {
     Corner t = cornerOf(planeOf(ids.x), planeOf(ids.y), planeOf(ids.z));
     Wide128 den = wideDouble(t.volume);
-    return ivec3(quotient(t.moment[0], den), quotient(t.moment[1], den), quotient(t.moment[2], den));
+    return ivec3(quotientOf(t.moment[0], den, 0u), quotientOf(t.moment[1], den, 0u), quotientOf(t.moment[2], den, 0u));
 }
 
 // The other end of the edge between two faces that ends at corner t.

@@ -29,11 +29,11 @@ void main() {
     }
     if ((before & PLACED) != 0u) return;
     uvec4 parent = tree[before >> 1];
-    uint node = level == 0u ? root.y : ((before & 1u) != 0u ? parent.z : parent.y) - 1u;
+    uint node = level == 0u ? root.y : childAt(before, parent);
     uint initial = level == 0u ? root.x : tree[node].x;
     ivec3 here = bin_sites[p].xyz, to_initial = here - bin_sites[initial].xyz, to_inserted = here - bin_sites[node].xyz;
     uint side = isNegative(squareOf(to_inserted) - squareOf(to_initial)) ? 1u : 0u;
     path[p] = 2u * node + side;
     atomicMax(tree[node].w, radiusBits(to_initial));
-    atomicMax(bids[2u * node + side], NO_INDEX - priorityOf(p));
+    atomicMax(bids[2u * node + side], NO_INDEX - mixed(p));
 }

@@ -7,15 +7,9 @@
 // A node is a uvec4: initial site; both children, 0 for none, else 1 more than their site; bits of the squared distance from
 // the initial site to the furthest below. Sites are places in bin_sites.
 #define PLACED 0x80000000u
+#include "lib/hash.glsl" // inserting sites in the order of their bins would make a list of the tree
 
 uvec2 rootOf(uint n) { return uvec2(n / 4u, 3u * n / 4u); } // apart from each other in z
-
-// A shuffle of all numbers: inserting sites in the order of their bins would make a list of the tree.
-uint priorityOf(uint p) {
-    p = (p ^ (p >> 16)) * 0x7feb352du;
-    p = (p ^ (p >> 15)) * 0x846ca68bu;
-    return p ^ (p >> 16);
-}
 
 // Exact below 2^24 and rounded up above: a radius must not come out too small.
 uint radiusBits(ivec3 d) {
@@ -24,3 +18,7 @@ uint radiusBits(ivec3 d) {
 }
 
 int64_t squareOf(ivec3 d) { return int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z); }
+
+// `at`: the node and the side of it that a site has come to.
+uint childAt(uint at, uvec4 node) { return ((at & 1u) != 0u ? node.z : node.y) - 1u; }
+uint initialAt(uint at, uvec4 node) { return (at & 1u) != 0u ? at >> 1 : node.x; }

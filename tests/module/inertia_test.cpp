@@ -1,8 +1,5 @@
 // What a fragment weighs and how it turns, against sums in double over its own triangles, and against the model's.
-#include "modules/brittle/fracture/fracture.h"
-#include "modules/brittle/mesh/prepare.h"
-#include "modules/brittle/mesh/primitives.h"
-#include "tests/engine/test_device.h"
+#include "tests/module/whole_fracture.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -51,40 +48,37 @@ Matrix3d tensorOf(const brittle::Fragment& f) {
 Vector3d centroidOf(const brittle::Fragment& f) { return {f.centroid[0], f.centroid[1], f.centroid[2]}; }
 
 void expectWeighed(const brittle::PreparedMesh& model, const brittle::FragmentSet& set) {
-    Weighed whole;
+    Weighed all;
     for (const brittle::Index3& t : model.mesh.triangles) {
         std::array<Vector3d, 3> p;
         for (size_t k = 0; k < 3; ++k)
             p[k] = Eigen::Map<const Eigen::Vector3f>(model.mesh.positions[t[k]].data()).cast<double>();
-        whole.add(p[0], p[1], p[2]);
+        all.add(p[0], p[1], p[2]);
     }
     Matrix3d sum = Matrix3d::Zero();
     Vector3d moment = Vector3d::Zero();
     for (const brittle::Fragment& f : set.fragments) {
         const Weighed own = weigh(set, f);
-        EXPECT_NEAR(f.volume, own.volume, 1e-6 * own.volume + 1e-12 * whole.volume);
-        EXPECT_LT((tensorOf(f) - own.inertia()).norm(), 2e-5 * own.inertia().norm() + 1e-12 * whole.inertia().norm());
-        const Vector3d d = centroidOf(f) - whole.center();
+        EXPECT_NEAR(f.volume, own.volume, 1e-6 * own.volume + 1e-12 * all.volume);
+        EXPECT_LT((tensorOf(f) - own.inertia()).norm(), 2e-5 * own.inertia().norm() + 1e-12 * all.inertia().norm());
+        const Vector3d d = centroidOf(f) - all.center();
         sum += tensorOf(f) + f.volume * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
         moment += f.volume * centroidOf(f);
     }
-    EXPECT_LT((sum - whole.inertia()).norm(), 1e-6 * whole.inertia().norm());
-    EXPECT_LT((moment / whole.volume - whole.center()).norm(), 1e-6);
+    EXPECT_LT((sum - all.inertia()).norm(), 1e-6 * all.inertia().norm());
+    EXPECT_LT((moment / all.volume - all.center()).norm(), 1e-6);
 }
 
 TEST(Inertia, OfFragmentsAddsUpToTheModels) {
-    auto fracture = brittle::Fracture::create(engine_test::device());
-    ASSERT_TRUE(fracture);
     for (const auto& [name, sites] :
          {std::pair{"cube", 1u}, {"cube", 50u}, {"ring", 200u}, {"bumpy:4", 1000u}, {"icosphere:3", 7u}}) {
         SCOPED_TRACE(name);
-        const auto prepared = brittle::prepareMesh(*brittle::makeBuiltin(name));
-        ASSERT_TRUE(prepared);
+        const brittle::PreparedMesh prepared = whole::modelFrom(std::string("builtin:") + name).prepared;
         brittle::FractureOptions options;
         options.site_count = sites;
-        const auto result = (*fracture)->shatter(prepared->mesh, prepared->topology, options);
+        const auto result = whole::fracture().shatter(prepared.mesh, prepared.topology, options);
         ASSERT_TRUE(result) << result.error().message;
-        expectWeighed(*prepared, result->fragments);
+        expectWeighed(prepared, result->fragments);
     }
 }
 

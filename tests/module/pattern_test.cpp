@@ -1,8 +1,5 @@
 // Where the patterns place sites.
-#include "modules/brittle/fracture/fracture.h"
-#include "modules/brittle/mesh/prepare.h"
-#include "modules/brittle/mesh/primitives.h"
-#include "tests/engine/test_device.h"
+#include "tests/module/whole_fracture.h"
 
 #include <gtest/gtest.h>
 
@@ -14,22 +11,11 @@ namespace {
 using brittle::Double3;
 using brittle::Pattern;
 
-brittle::PreparedMesh builtin(const std::string& name) {
-    const auto made = brittle::makeBuiltin(name.substr(8));
-    EXPECT_TRUE(made) << made.error().message;
-    auto prepared = brittle::prepareMesh(*made);
-    EXPECT_TRUE(prepared) << prepared.error().message;
-    return std::move(*prepared);
-}
-
-std::vector<Double3> sitesOf(const std::string& model, const brittle::FractureOptions& asked) {
-    static brittle::PreparedMesh mesh;
-    mesh = builtin(model);
-    auto fracture = brittle::Fracture::create(engine_test::device());
-    EXPECT_TRUE(fracture) << fracture.error().message;
+std::vector<Double3> sitesOf(const std::string& name, const brittle::FractureOptions& asked) {
+    const whole::Model model = whole::modelFrom(name);
     brittle::FractureOptions options = asked;
     options.only_cells = true;
-    const auto result = (*fracture)->shatter(mesh.mesh, mesh.topology, options);
+    const auto result = whole::fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
     EXPECT_TRUE(result) << result.error().message;
     return result ? result->sites : std::vector<Double3>();
 }
@@ -148,15 +134,13 @@ TEST(Patterns, PlaceTheSameSitesEveryTimeAndOthersForAnotherSeed) {
 }
 
 TEST(Patterns, RefuseImpactsThatAreNoPlaceOrHaveNoStrength) {
-    const brittle::PreparedMesh cube = builtin("builtin:cube");
-    auto fracture = brittle::Fracture::create(engine_test::device());
-    ASSERT_TRUE(fracture);
+    const whole::Model cube = whole::modelFrom("builtin:cube");
     for (const brittle::Impact& impact : {brittle::Impact{{NAN, 0, 0}, 1, 1}, brittle::Impact{{1e9, 0, 0}, 1, 1},
                                           brittle::Impact{{0, 0, 0}, -1, 1}, brittle::Impact{{0, 0, 0}, NAN, 1}}) {
         brittle::FractureOptions options;
         options.pattern = Pattern::Impact;
         options.impact = impact;
-        const auto result = (*fracture)->shatter(cube.mesh, cube.topology, options);
+        const auto result = whole::fracture().shatter(cube.prepared.mesh, cube.prepared.topology, options);
         ASSERT_FALSE(result);
         EXPECT_EQ(result.error().code, engine::ErrorCode::BadInput);
     }

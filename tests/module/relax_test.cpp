@@ -1,10 +1,5 @@
 // Lloyd's relaxation: sites come to lie in the middle of their cells, and cells become alike.
-#include "modules/brittle/fracture/fracture.h"
-#include "modules/brittle/fracture/verify.h"
-#include "modules/brittle/mesh/check.h"
-#include "modules/brittle/mesh/prepare.h"
-#include "modules/brittle/mesh/primitives.h"
-#include "tests/engine/test_device.h"
+#include "tests/module/whole_fracture.h"
 
 #include <gtest/gtest.h>
 
@@ -12,17 +7,12 @@
 
 namespace {
 
-brittle::FractureResult shatter(const std::string& model, const brittle::FractureOptions& options) {
-    const auto prepared = brittle::prepareMesh(*brittle::makeBuiltin(model));
-    EXPECT_TRUE(prepared);
-    auto fracture = brittle::Fracture::create(engine_test::device());
-    EXPECT_TRUE(fracture);
-    auto result = (*fracture)->shatter(prepared->mesh, prepared->topology, options);
+brittle::FractureResult shatter(const std::string& name, const brittle::FractureOptions& options) {
+    const whole::Model model = whole::modelFrom("builtin:" + name);
+    auto result = whole::fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
     EXPECT_TRUE(result) << result.error().message;
     if (!result) return {};
-    const auto measures = brittle::inspectMesh(prepared->mesh, prepared->topology).measures;
-    const auto report = brittle::verifyContract(prepared->mesh, measures, result->fragments, result->sites);
-    EXPECT_TRUE(report.holds()) << report.violation();
+    whole::expectContract(model, *result);
     return std::move(*result);
 }
 

@@ -107,6 +107,9 @@ std::string wholeNumber(const std::string& text) {
 
 std::string someText(const std::string& text) { return text.empty() ? "an empty name; leave the option out instead" : ""; }
 
+// Ranges let NaN pass.
+std::string notANumber(const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; }
+
 // "X,Y,Z"
 std::optional<brittle::Double3> placeOf(const std::string& text) {
     brittle::Double3 place;
@@ -142,7 +145,7 @@ void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& option
     command.add_option("--strength", options->strength, "of the hit, in joules where the model is in meters")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e12))
-        ->check([](const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; });
+        ->check(notANumber);
 }
 
 } // namespace
@@ -173,7 +176,7 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_option("--explode", options->explode, "in the picture, move fragments this many times further from the center")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1000.0))
-        ->check([](const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; });
+        ->check(notANumber);
     command->add_flag("--json", options->as_json, "print one JSON object, errors measured");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command

@@ -6,7 +6,7 @@ namespace {
 
 struct RelaxPush {
     Int4 low, high, box_low, box_high;
-    uint32_t slots, seed_low, seed_high;
+    uint32_t slots;
 };
 
 } // namespace
@@ -14,13 +14,8 @@ struct RelaxPush {
 void recordRelaxation(const Event& e) {
     const auto& b = e.b;
     const EventGrid& g = e.grid;
-    const RelaxPush push = {withLast(g.mesh_low, e.columns.edge),
-                            withLast(g.mesh_high, e.columns.per_row),
-                            withLast(g.box_low, 0),
-                            withLast(g.box_high, 0),
-                            e.capacity.sites,
-                            0,
-                            0};
+    const RelaxPush push = {withLast(g.mesh_low, e.columns.edge), withLast(g.mesh_high, e.columns.per_row),
+                            withLast(g.box_low, 0), withLast(g.box_high, 0), e.capacity.sites};
     if (e.search == Search::SphereTree) recordSphereTree(e);
     e.record.commands().beginLabel("relax_sites");
     recordCutting(e);
