@@ -33,7 +33,7 @@ engine::Result<Box> boxOfUsed(const ImportedMesh& imported, const std::vector<ch
     }
     const double diagonal = box.diagonal();
     if (!(diagonal >= kMinDiagonal && diagonal <= kMaxDiagonal))
-        return badMesh("the model is " + formatNumber(diagonal) + " units large; scale it to between 1e-9 and 1e9");
+        return badMesh("the model is " + formatNumber(diagonal) + " units large; scale it to between 1e-10 and 1e10");
     return box;
 }
 

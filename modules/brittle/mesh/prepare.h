@@ -6,8 +6,8 @@
 
 namespace brittle {
 
-// Fourth powers of lengths have to fit into floats: kernels multiply areas by areas.
-constexpr double kMinDiagonal = 1e-9, kMaxDiagonal = 1e9;
+// The grid of an event takes any size; volumes, cubes of lengths, stay clear of the ends of float.
+constexpr double kMinDiagonal = 1e-10, kMaxDiagonal = 1e10;
 
 // What was done to the mesh on the way, for the doctor.
 struct PrepareNotes {
