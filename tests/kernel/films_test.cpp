@@ -157,7 +157,7 @@ TEST(SmallFilms, OfImagesInTheFacesOfAPlateJoinThePiecesUnderThem) {
 // All of it is thinner than a film may be: pieces with something in them are fragments nevertheless.
 TEST(SmallFilms, ThatAreAllThereIsAreFragments) {
     FractureOptions options{0, 0, {{-.3, 0, 0}, {.1, .2, 0}, {.2, -.4, 0}}};
-    const Plate plate{1.5e-7, false};
+    const Plate plate{1e-7, false};
     expectNothingLost(plate, options);
     const brittle::PreparedMesh solid = plate.solid();
     EXPECT_EQ(DeviceEvent(solid, options, Until::Emission)[COUNT_FRAGMENTS], 3u);

@@ -140,15 +140,29 @@ TEST(FractureTies, WallsOfHollowsInBisectors) {
 
 // Down to less than two steps of the grid. Films between a face and the bisector of a site and its image belong to somebody.
 TEST(FractureThin, Plates) {
-    for (const double thickness : {1e-2, 1e-4, 1e-6, 1.6e-7}) {
+    for (const double thickness : {1e-2, 1e-4, 1e-6, 1.6e-7, 1e-7}) {
         SCOPED_TRACE(thickness);
         const Model plate = modelFrom(boxOf({-.5, -.5, 0}, {.5, .5, thickness}));
-        expectContractAt(plate, centeredLattice());
+        // Sites that reach further than the plate make the grid coarser.
+        Sites lattice = centeredLattice();
+        if (thickness < 1.5e-7)
+            std::erase_if(lattice, [](const Double3& s) { return std::max({s[0], s[1], std::fabs(s[2]) + .1}) > .5; });
+        expectContractAt(plate, lattice);
         expectContractOf(plate, {2, 150});
         const Sites inside = sitesIn({-.5, -.5, 0}, {.5, .5, thickness}, 40);
         const reference::Triangles faces = {plate.triangles[8], plate.triangles[10]}; // one of each side
         expectContractAt(plate, withImages(inside, faces));
     }
+}
+
+TEST(FractureThin, WhatIsFlatOnTheGridOfTheEventIsRefused) {
+    const Model plate = modelFrom(boxOf({-.5, -.5, 0}, {.5, .5, 1e-7}));
+    FractureOptions options;
+    options.given_sites = {{0, 0, 0}, {10, 0, 0}};
+    const auto result = fracture().shatter(plate.prepared.mesh, plate.prepared.topology, options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, engine::ErrorCode::BadInput);
+    EXPECT_NE(result.error().message.find("flat on the grid of the event"), std::string::npos);
 }
 
 // Off the grid in all directions: films are wedges then, up to hundreds of steps.

@@ -1,5 +1,6 @@
 #include "modules/brittle/fracture/event_grid.h"
 
+#include "modules/brittle/mesh/format.h"
 #include "modules/brittle/mesh/measures.h"
 
 #include <algorithm>
@@ -130,17 +131,31 @@ Double3 fromGrid(const EventGrid& grid, const Int3& position) {
     return p;
 }
 
+namespace {
+
+engine::Result<void> checkThickness(const EventGrid& grid) {
+    for (size_t k = 0; k < 3; k++)
+        if (grid.mesh_low[k] == grid.mesh_high[k])
+            return engine::Error{engine::ErrorCode::BadInput, "the model is flat on the grid of the event, whose step is " +
+                                                                  formatNumber(static_cast<double>(grid.step)) +
+                                                                  "; give it a thickness, or leave out sites far away"};
+    return {};
+}
+
+} // namespace
+
 engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count, bool crowded) {
     auto reach = farthestSite(sites, farthestCoordinate(mesh));
     if (!reach) return reach.error();
     EventGrid grid;
     int exponent = 0;
-    std::frexp((kGridCenter - 2 * kGridMargin) / std::max(*reach, 1e-37), &exponent);
+    std::frexp(kGridCenter / std::max(*reach, 1e-37), &exponent);
     exponent = std::clamp(exponent - 1, -100, 100);
     grid.scale = std::ldexp(1.0f, exponent);
     grid.step = std::ldexp(1.0f, -exponent);
     grid.solid_volume = measureMesh(mesh).volume * std::pow(static_cast<double>(grid.scale), 3);
     setBox(grid, mesh, sites);
+    if (auto thick = checkThickness(grid); !thick) return thick.error();
     setBins(grid, site_count, crowded ? kLeastShare : sites.empty() ? filledShare(grid) : 1.0);
     if (!sites.empty()) {
         setBins(grid, site_count, occupiedShare(grid, sites));

@@ -31,7 +31,7 @@ struct EventGrid {
     }
 };
 
-// Grid coordinates run from 0 to 2^24; the mesh's center lies at 2^23.
+// Grid coordinates of mesh and sites run from 0 to 2^24, both included; the mesh's center lies at 2^23.
 constexpr int32_t kGridCenter = 1 << 23;
 // Nothing comes nearer to a wall of the box than this, so that no triangle is cut by one.
 constexpr int32_t kGridMargin = 8;

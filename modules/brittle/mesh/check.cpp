@@ -11,7 +11,7 @@ namespace brittle {
 namespace {
 
 // A plate as thin as this share of its size has no inside on a grid of 24 bits.
-constexpr double kMinThickness = 1e-7;
+constexpr double kMinThickness = 3e-8;
 
 class Inspector {
 public:

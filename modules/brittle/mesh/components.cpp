@@ -93,7 +93,7 @@ std::vector<Component> findComponents(const Mesh& mesh, const MeshTopology& topo
 }
 
 int windingBelow(const Mesh& mesh, const TriangleTree& tree, uint32_t triangle, double diagonal, uint64_t& tests) {
-    const double nearest = 1e-7 * diagonal; // two surfaces this near count as one
+    const double nearest = 3e-8 * diagonal; // half of a float's last digit: two surfaces this near count as one
     const Corners p = cornersOf(mesh, triangle);
     const Double3 normal = normalized(doubleArea(p), {0, 0, 1});
     // Rays that graze an edge tell nothing: try others, from elsewhere on the triangle and in odd directions.
