@@ -74,7 +74,7 @@ TEST(SmallCaps, OfConvexPolygons) {
     std::vector<CapPolygon> polygons;
     for (const uint32_t corners : {3u, 4u, 5u, 12u, 24u})
         polygons.push_back(ringOf(corners));
-    EXPECT_EQ(capOnDevice(polygons, kCapBases[0], Through::AllInTurn).large, 0u) << "a lane can do them";
+    EXPECT_EQ(capOnDevice(polygons, kCapBases[0], Through::AllInTurn).wide, 0u) << "a lane can do them";
     for (const uint32_t corners : {25u, 63u, 64u, 65u, 256u})
         polygons.push_back(ringOf(corners));
     expectCapped(polygons);
@@ -98,15 +98,15 @@ TEST(SmallCaps, OfAsManyFacesAsThereAre) {
     for (const uint32_t count : kSizes) {
         std::mt19937 random(count);
         std::vector<CapPolygon> polygons;
-        uint32_t large = 0;
+        uint32_t wide = 0;
         for (uint32_t f = 0; f < count; ++f) {
             polygons.push_back(starOf(static_cast<uint32_t>(3 + random() % 26), random));
-            large += polygons[f].segments.size() > SMALL_FACE ? 1 : 0;
+            wide += polygons[f].segments.size() > SMALL_FACE ? 1 : 0;
         }
         const CapRun run = capOnDevice(polygons, kCapBases[0], Through::AllInTurn);
         for (size_t f = 0; f < count; ++f)
             expectTriangulated(polygons[f], run.triangles[f]);
-        EXPECT_EQ(run.large, large);
+        EXPECT_EQ(run.wide, wide);
     }
 }
 
