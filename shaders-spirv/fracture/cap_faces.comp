@@ -1,6 +1,6 @@
 // Triangulates the caps that are one simple loop of few corners, a face a lane: most are. The rest goes to
 // cap_fans: several loops, holes, touching corners, long loops, no ear to be found, or an outline that
-// turns back on itself.
+// turns back on itself or goes round more than once.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -87,10 +87,13 @@ void main() {
     }
     simple = simple && visited == size && (size == 0u || walk == start);
     uint made = 0u, reflex = 0u, left = simple ? size : 0u, corner = start, failures = 0u;
+    int rounds = 0;
     for (uint k = 0u; k < left; k++) {
         if (turn(place[previous_of[k]], place[k], place[next_of[k]]) <= 0) reflex |= 1u << k;
         simple = simple && !isSpike(place[previous_of[k]], place[k], place[next_of[k]]);
+        rounds += roundTurn(place[previous_of[k]], place[k], place[next_of[k]]);
     }
+    simple = simple && (left == 0u || rounds == 1);
     left = simple ? left : 0u;
     for (uint step = 0u; step < SMALL * SMALL && left > 2u && failures <= left; step++) {
         if (left == 3u || isEar(corner, reflex)) {

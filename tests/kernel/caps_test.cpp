@@ -152,6 +152,25 @@ TEST(SmallCaps, OfASlitThatIsTurnedOver) {
     expectCappedButForRounding(polygon);
 }
 
+// Of a slot whose walls have passed through each other by six steps: the outline goes round twice, and no corner is reflex. Its
+// tip lies far from where it crosses itself, in the middle of what would be a large ear.
+TEST(SmallCaps, OfAnOutlineThatGoesRoundTwice) {
+    const CapPolygon polygon = polygonOf({{{-268435456, -171567246},
+                                           {-245671346, -167929140},
+                                           {-210533241, -112627895},
+                                           {-210749437, -109546609},
+                                           {-268435456, -84517045},
+                                           {-268435456, -125977843},
+                                           {-263959515, -130860773},
+                                           {-260882360, -134217728},
+                                           {-260881841, -134217728},
+                                           {-260881834, -134217728},
+                                           {-268435456, -125977269},
+                                           {-268435456, -135251946},
+                                           {-268435456, -135251874}}});
+    expectCappedButForRounding(polygon);
+}
+
 // Found in a block with square holes: the hole's outline runs along the cap's own, there and back through different corners.
 TEST(SmallCaps, OfSlitsBetweenManyCorners) {
     const CapLoop found = {{160557808, -103549655}, {220793440, -125401551}, {273139168, 0},          {-102140647, 0},
