@@ -23,13 +23,14 @@ uint faceOf(uint i, uint j) {
     return found;
 }
 
-void addSegment(uint face, uint a, uint b, uint source) {
+// `flat_`: 1 of what is taken out of the cap, 0 of its boundary.
+void addSegment(uint face, uint a, uint b, uint source, uint flat_) {
     if (face == NO_INDEX) {
         atomicAdd(counts[STATUS_BAD_LOOKUP], 1u);
         return;
     }
     uint at = atomicAdd(face_counts[face], 1u);
-    if (kFill != 0u) segments[face_offsets[face] + at] = uvec4(a, b, source, 0u);
+    if (kFill != 0u) segments[face_offsets[face] + at] = uvec4(a, b, source, flat_);
 }
 
 void main() {
@@ -42,10 +43,10 @@ void main() {
     uint start = polygon_corners[at.x + n - 1u];
     for (uint k = 0u; k < n; k++) {
         uint j = sides[at.x + k], end = polygon_corners[at.x + k];
-        if (j < EDGE_BASE && j > cell) addSegment(faceOf(cell, j), end, start, source++);
+        if (j < EDGE_BASE && j > cell) addSegment(faceOf(cell, j), end, start, source++, 0u);
         if (with != NO_INDEX) {
             bool lower = with < cell;
-            addSegment(flat_face, lower ? end : start, lower ? start : end, source++);
+            addSegment(flat_face, lower ? end : start, lower ? start : end, source++, 1u);
         }
         start = end;
     }

@@ -1,6 +1,6 @@
 // Triangulates the caps that are one simple loop of few corners, a face a lane: most are. The rest goes to
-// cap_faces_large: several loops, holes, touching corners, long loops, no ear to be found, or an outline that
-// turns back on itself.
+// cap_fans: several loops, holes, touching corners, long loops, no ear to be found, or an outline that
+// turns back on itself or goes round more than once.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -18,9 +18,8 @@ READS(7, uint, welded);
 READS(8, uint, points);
 WRITES(9, uint, loose_caps);    // three words a slot; a slot for every segment, and then those of large faces
 WRITES(10, uint, cap_counts);
-WRITES(11, uint, large_faces);
-WRITES(12, uint, huge_faces);
-WRITES(13, uint, cap_slots);    // first slot of each face
+WRITES(11, uint, wide_faces);
+WRITES(12, uint, cap_slots);    // first slot of each face
 #include "lib/cap_plane.glsl"
 
 ivec2 place[SMALL];
@@ -88,10 +87,13 @@ void main() {
     }
     simple = simple && visited == size && (size == 0u || walk == start);
     uint made = 0u, reflex = 0u, left = simple ? size : 0u, corner = start, failures = 0u;
+    int rounds = 0;
     for (uint k = 0u; k < left; k++) {
         if (turn(place[previous_of[k]], place[k], place[next_of[k]]) <= 0) reflex |= 1u << k;
         simple = simple && !isSpike(place[previous_of[k]], place[k], place[next_of[k]]);
+        rounds += roundTurn(place[previous_of[k]], place[k], place[next_of[k]]);
     }
+    simple = simple && (left == 0u || rounds == 1);
     left = simple ? left : 0u;
     for (uint step = 0u; step < SMALL * SMALL && left > 2u && failures <= left; step++) {
         if (left == 3u || isEar(corner, reflex)) {
@@ -121,7 +123,6 @@ void main() {
     }
     bool done = simple && (left <= 2u || size <= 2u);
     cap_counts[at] = done ? made : 0u;
-    cap_slots[at] = done ? first : counts[COUNT_SEGMENTS] + atomicAdd(counts[COUNT_NODES], 2u * n); // whoever comes first
-    if (!done && n <= LARGE_FACE) large_faces[atomicAdd(counts[COUNT_LARGE_FACES], 1u)] = at;
-    if (!done && n > LARGE_FACE) huge_faces[atomicAdd(counts[COUNT_HUGE_FACES], 1u)] = at;
+    cap_slots[at] = first;
+    if (!done) wide_faces[atomicAdd(counts[COUNT_WIDE_FACES], 1u)] = at;
 }

@@ -45,6 +45,7 @@ shared uint holes[MAX_LOOPS];
 shared uint lane_pick[LANES];
 shared int64_t lane_key[LANES];
 shared uint node_total, alive_total, reflex_total, spike_total, cleared, hole_total, outer_total;
+shared int round_total;
 
 uint base, slots, plane_u, plane_w;
 
@@ -361,6 +362,18 @@ bool entersEar(uint q, ivec2 a, ivec2 b, ivec2 c, bool touching) {
     return (turn(from, x, p) > 0 && turn(x, to, p) > 0) || (turn(from, x, n) > 0 && turn(x, to, n) > 0);
 }
 
+// Whether loops go round more or less often than once: where walls of the surface have passed through each other, the strip
+// between them is there twice, and its end, which would be reflex, turns left.
+bool goesRoundOften(uint lane) {
+    if (lane == 0u) round_total = 0;
+    barrier();
+    for (uint k = lane; k < node_total; k += LANES) {
+        if (live(k)) atomicAdd(round_total, roundTurn(at(previousOf(k)), at(k), at(nextOf(k))));
+    }
+    barrier();
+    return round_total != int(outer_total);
+}
+
 uint priorityOf(uint k) { return (k * 0x9e3779b1u) ^ (k >> 7); }
 
 void main() {
@@ -396,7 +409,8 @@ void main() {
 
     // Of the 65,535 loop turns that Mesa's software device allows: a quarter for looks at reflex corners, a half for the rounds.
     uint phase = 0u, budget = 16000u, made = 0u, rounds = 30000u / (5u * (node_total / LANES + 1u));
-    bool finished = n == 0u;
+    // Corners that turn left cannot be the first to enter an ear, unless the outline crosses itself.
+    bool wary = goesRoundOften(lane), finished = n == 0u;
     for (uint round = 0u; round < rounds && !finished; round++) {
         if (lane == 0u) {
             reflex_total = 0u;
@@ -414,7 +428,7 @@ void main() {
                     rings[base + k].w = 0u;
                     atomicAdd(alive_total, 1u);
                     ivec2 a = at(previousOf(k)), b = at(k), c = at(nextOf(k));
-                    if (turn(a, b, c) <= 0) reflex_list[atomicAdd(reflex_total, 1u)] = k;
+                    if (wary || turn(a, b, c) <= 0) reflex_list[atomicAdd(reflex_total, 1u)] = k;
                     if (isSpike(a, b, c)) atomicAdd(spike_total, 1u);
                 }
             }

@@ -22,7 +22,7 @@ UPDATES(9, uint, interval_counts);
 READS(10, uint, interval_offsets);
 UPDATES(11, uint, face_counts); // while filling: cursors
 READS(12, uint, face_offsets);
-WRITES(13, uvec4, segments);    // from, to, source, 0
+WRITES(13, uvec4, segments);    // from, to, source, 1 if it lies in the mesh
 layout(push_constant) uniform Push { uint vertex_count; };
 
 uvec3 faces;

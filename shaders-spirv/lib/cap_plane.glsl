@@ -43,3 +43,12 @@ bool isSpike(ivec2 a, ivec2 b, ivec2 c) {
     bool back = signOf(int64_t(u.x) * int64_t(w.x) + int64_t(u.y) * int64_t(w.y)) > 0;
     return (thin && back) || u == ivec2(0) || w == ivec2(0);
 }
+
+bool isUpward(ivec2 d) { return d.y > 0 || (d.y == 0 && d.x > 0); }
+
+// Whether the outline's direction turns through that of the first axis at b: 1 to the left, -1 to the right. Over a loop this
+// adds up to how often it goes round: once, unless it crosses itself.
+int roundTurn(ivec2 a, ivec2 b, ivec2 c) {
+    bool before = isUpward(b - a), after = isUpward(c - b), left = turn(a, b, c) >= 0;
+    return before == after || left != after ? 0 : (left ? 1 : -1);
+}

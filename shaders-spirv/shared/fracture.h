@@ -53,7 +53,8 @@
 #define COUNT_PARTS 36            /* cavities, each part of another component's fragment */
 #define COUNT_AGAIN 37            /* candidates, where films have been merged and islands are to be found anew; else 0 */
 #define COUNT_SORT 38             /* triangles to be sorted by component */
-#define COUNT_TOTAL 39
+#define COUNT_WIDE_FACES 39       /* that a lane cannot triangulate */
+#define COUNT_TOTAL 40
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL

@@ -118,6 +118,17 @@ TEST_F(LongCli, TheSameBytesWhateverTheThreadsAndTheWidthOfSubgroups) {
             EXPECT_TRUE(shatter(events[k], {setting}) == usual[k]) << setting << ", " << events[k][0];
 }
 
+TEST_F(Cli, CapsOfAConvexModelInAnother) {
+    const Outcome right = runProgram("brittle", {"shatter", "builtin:cube", "-o", path("a.glb"), "--caps", "convex"});
+    EXPECT_EQ(right.exit_code, 0) << right.err;
+    const Outcome wrong = runProgram("brittle", {"shatter", "builtin:ring", "-o", path("b.glb"), "--caps", "convex"});
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_NE(wrong.err.find("turned over; nothing was written; the model is not convex where it was cut: use --caps exact"),
+              std::string::npos)
+        << wrong.err;
+    EXPECT_FALSE(std::filesystem::exists(path("b.glb")));
+}
+
 TEST_F(Cli, SitesFromAFile) {
     std::ofstream(path("sites.txt")) << "# three in the cube\n-.25 0 0\n.25 0 0\n\n0 .25 .1  # the last\n";
     const Outcome run =

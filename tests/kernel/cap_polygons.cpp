@@ -20,6 +20,7 @@ CapBuffers buffersOf(const std::vector<CapPolygon>& polygons, const CapBasis& ba
     CapBuffers all;
     std::mt19937 random(17);
     uint32_t source = 0;
+    const auto flat = [](const CapPolygon& p, size_t s) { return s >= p.flat_from ? 1u : 0u; };
     for (const CapPolygon& polygon : polygons) {
         const uint32_t first = static_cast<uint32_t>(all.points.size());
         for (const CapPoint& p : polygon.points) {
@@ -29,8 +30,9 @@ CapBuffers buffersOf(const std::vector<CapPolygon>& polygons, const CapBasis& ba
                            (int64_t{p[0]} * basis.x[k] + int64_t{p[1]} * basis.y[k]) * ((1 << 24) / polygon.per_step);
             all.points.push_back(place);
         }
-        for (const Word2& s : polygon.segments)
-            all.segments.push_back({first + s[0], first + s[1], source++, 0});
+        for (size_t s = 0; s < polygon.segments.size(); ++s)
+            all.segments.push_back(
+                {first + polygon.segments[s][0], first + polygon.segments[s][1], source++, flat(polygon, s)});
         std::shuffle(all.segments.begin() + all.offsets.back(), all.segments.end(), random);
         all.offsets.push_back(static_cast<uint32_t>(all.segments.size()));
         all.first_point.push_back(static_cast<uint32_t>(all.points.size()));
@@ -121,7 +123,8 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
         places.push_back(counts[COUNT_SEGMENTS] + 2 * all.offsets[f]);
     const engine::Buffer loose = blankBuffer<Grid3>(all.segments.size() + slots), cap_counts = blankBuffer<uint32_t>(n),
                          cap_slots = bufferOf(places);
-    const engine::Buffer large = bufferOf(countUp(n)), huge = bufferOf(countUp(n));
+    const engine::Buffer wide = blankBuffer<uint32_t>(n), large = bufferOf(countUp(n)), huge = bufferOf(countUp(n));
+    const engine::Buffer shared_points = bufferOf(std::vector<uint32_t>(all.points.size()));
     const engine::Buffer nodes = blankBuffer<Word4>(slots), rings = blankBuffer<Word4>(slots),
                          loops = blankBuffer<Word4>(slots);
     const auto run = [&](engine::Commands& commands, const char* name, uint32_t count, const engine::Buffer& list) {
@@ -131,14 +134,34 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
                                    cap_counts, list, nodes, rings, loops, cap_slots});
     };
     onDevice([&](engine::Commands& commands) {
-        if (through == Through::AllInTurn)
+        if (through == Through::Convex) {
+            commands.dispatch(kernel("cap_faces_convex"), n, engine::NoPush{},
+                              {counts.words, faces, offsets, segments, welded, loose, cap_counts, wide, cap_slots});
+            counts.publish(commands, COUNT_WIDE_FACES, n);
+            commands.dispatchIndirect(
+                kernel("cap_fans_convex"), counts.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
+                {counts.words, faces, offsets, segments, welded, shared_points, loose, cap_counts, wide, cap_slots});
+            return;
+        }
+        if (through == Through::AllInTurn) {
             commands.dispatch(kernel("cap_faces"), n, engine::NoPush{},
                               {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
-                               cap_counts, large, huge, cap_slots});
+                               cap_counts, wide, cap_slots});
+            counts.publish(commands, COUNT_WIDE_FACES, n);
+            const uint32_t vertex_count = 0; // as if all corners were on Voronoi edges
+            commands.dispatchIndirect(kernel("cap_fans"), counts.groupsOf(COUNT_WIDE_FACES), vertex_count,
+                                      {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
+                                       cap_counts, wide, large, huge, cap_slots});
+        }
         if (through != Through::Huge) run(commands, "cap_faces_large", COUNT_LARGE_FACES, large);
         if (through != Through::Large) run(commands, "cap_faces_huge", COUNT_HUGE_FACES, huge);
     });
-    CapRun result{{}, counts[COUNT_LARGE_FACES], counts[COUNT_HUGE_FACES], counts[STATUS_BAD_CAP], counts[STATUS_TURNED_OVER],
+    CapRun result{{},
+                  counts[COUNT_WIDE_FACES],
+                  counts[COUNT_LARGE_FACES],
+                  counts[COUNT_HUGE_FACES],
+                  counts[STATUS_BAD_CAP],
+                  counts[STATUS_TURNED_OVER],
                   0};
     const std::vector<uint32_t> made = valuesOf<uint32_t>(cap_counts, n);
     const std::vector<Grid3> filled = valuesOf<Grid3>(loose, all.segments.size() + slots);

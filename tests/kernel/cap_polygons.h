@@ -21,6 +21,7 @@ struct CapPolygon {
     std::optional<size_t> triangles; // how many there must be
     bool may_be_flat = false;        // triangles without area are no mistake
     int32_t per_step = 1;            // points are in such parts of a grid step
+    uint32_t flat_from = NO_INDEX;   // segments from here on are outlines of mesh faces in the bisector
     int64_t crosses = 0;             // itself, by so many of them: triangles may be turned over by as much
 };
 CapPolygon polygonOf(const std::vector<CapLoop>& loops);
@@ -32,11 +33,11 @@ struct CapBasis {
 };
 extern const std::vector<CapBasis> kCapBases;
 
-enum class Through { AllInTurn, Large, Huge };
+enum class Through { AllInTurn, Large, Huge, Convex };
 
 struct CapRun {
     std::vector<std::vector<Grid3>> triangles; // of each polygon: three of its points
-    uint32_t large = 0, huge = 0;              // faces passed on
+    uint32_t wide = 0, large = 0, huge = 0;    // faces passed on: to cap_fans, and from there
     uint32_t bad = 0, turned_over = 0, collapsed = 0;
 };
 CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basis, Through through);

@@ -74,7 +74,7 @@ TEST(SmallCaps, OfConvexPolygons) {
     std::vector<CapPolygon> polygons;
     for (const uint32_t corners : {3u, 4u, 5u, 12u, 24u})
         polygons.push_back(ringOf(corners));
-    EXPECT_EQ(capOnDevice(polygons, kCapBases[0], Through::AllInTurn).large, 0u) << "a lane can do them";
+    EXPECT_EQ(capOnDevice(polygons, kCapBases[0], Through::AllInTurn).wide, 0u) << "a lane can do them";
     for (const uint32_t corners : {25u, 63u, 64u, 65u, 256u})
         polygons.push_back(ringOf(corners));
     expectCapped(polygons);
@@ -98,15 +98,15 @@ TEST(SmallCaps, OfAsManyFacesAsThereAre) {
     for (const uint32_t count : kSizes) {
         std::mt19937 random(count);
         std::vector<CapPolygon> polygons;
-        uint32_t large = 0;
+        uint32_t wide = 0;
         for (uint32_t f = 0; f < count; ++f) {
             polygons.push_back(starOf(static_cast<uint32_t>(3 + random() % 26), random));
-            large += polygons[f].segments.size() > SMALL_FACE ? 1 : 0;
+            wide += polygons[f].segments.size() > SMALL_FACE ? 1 : 0;
         }
         const CapRun run = capOnDevice(polygons, kCapBases[0], Through::AllInTurn);
         for (size_t f = 0; f < count; ++f)
             expectTriangulated(polygons[f], run.triangles[f]);
-        EXPECT_EQ(run.large, large);
+        EXPECT_EQ(run.wide, wide);
     }
 }
 
@@ -149,6 +149,25 @@ TEST(SmallCaps, OfASlitThatIsTurnedOver) {
           {4726637, 9082799},    {4787821, 9806855},    {4754137, 9851883},    {4148295, 10661775},   {4047149, 10731140},
           {2857897, 11546715},   {2584449, 11672218},   {970667, 12412886},    {358003, 12614257},    {-1459225, 13211569},
           {-2624675, 13484040},  {-4377759, 13893890},  {-6339873, 14196552},  {-7730731, 14411087},  {-9957020, 14591968}}});
+    expectCappedButForRounding(polygon);
+}
+
+// Of a slot whose walls have passed through each other by six steps: the outline goes round twice, and no corner is reflex. Its
+// tip lies far from where it crosses itself, in the middle of what would be a large ear.
+TEST(SmallCaps, OfAnOutlineThatGoesRoundTwice) {
+    const CapPolygon polygon = polygonOf({{{-268435456, -171567246},
+                                           {-245671346, -167929140},
+                                           {-210533241, -112627895},
+                                           {-210749437, -109546609},
+                                           {-268435456, -84517045},
+                                           {-268435456, -125977843},
+                                           {-263959515, -130860773},
+                                           {-260882360, -134217728},
+                                           {-260881841, -134217728},
+                                           {-260881834, -134217728},
+                                           {-268435456, -125977269},
+                                           {-268435456, -135251946},
+                                           {-268435456, -135251874}}});
     expectCappedButForRounding(polygon);
 }
 

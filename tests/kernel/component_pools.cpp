@@ -54,7 +54,10 @@ Judged judgeOnDevice(const std::vector<Component>& components, float grid_step) 
         commands.dispatch(kernel("decide_fates"), n, grid_step, {counts.words, records, fates, cavities, films});
         counts.publish(commands, COUNT_CAVITIES, n);
         counts.publish(commands, COUNT_FILMS, n);
-        commands.dispatchIndirect(kernel("nest_cavities"), counts.groupsOf(COUNT_CAVITIES), 1.0f,
+        const std::array<float, 3> nest = {1, grid_step, 0};
+        commands.dispatchIndirect(kernel("nest_films"), counts.groupsOf(COUNT_FILMS), nest,
+                                  {counts.words, films, start, order, pieces, positions, records, fates});
+        commands.dispatchIndirect(kernel("nest_cavities"), counts.groupsOf(COUNT_CAVITIES), nest,
                                   {counts.words, cavities, start, order, pieces, positions, records, fates});
     });
     return {valuesOf<brittle::FragmentRecord>(records, n), valuesOf<Word2>(fates, n), counts[COUNT_FILMS],

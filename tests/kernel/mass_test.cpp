@@ -152,6 +152,8 @@ Triangles cavity(double low, double high) {
     return support::turnedOver(support::boxTriangles({low, low, low}, {high, high, high}));
 }
 
+class Slots : public testing::TestWithParam<double> {};
+
 TEST(SmallFates, OfACavityIsTheSmallestPieceAroundIt) {
     const Triangles large = support::boxTriangles({0, 0, 0}, {100, 100, 100}),
                     small = support::boxTriangles({20, 20, 20}, {60, 60, 60});
@@ -164,6 +166,22 @@ TEST(SmallFates, OfACavityIsTheSmallestPieceAroundIt) {
     EXPECT_EQ(judged.films + judged.bad, 0u);
     EXPECT_EQ(judgeOnDevice({{small, 7}, {large, 7}, {cavity(30, 40), 7}}, .01f).fates[2], (Word2{FATE_CAVITY, 0}));
 }
+
+// Walls of a slot that have passed through each other by so much.
+TEST_P(Slots, BelongToTheFragmentAroundThem) {
+    const double width = GetParam();
+    const auto wall = [](double at) {
+        return Triangles{{{{at, 2, 2}, {at, 8, 2}, {at, 8, 8}}}, {{{at, 2, 2}, {at, 8, 8}, {at, 2, 8}}}};
+    };
+    const Triangles solid = support::boxTriangles({0, 0, 0}, {10, 10, 10});
+    Triangles slot = support::joined(wall(5 + width / 2), support::turnedOver(wall(5 - width / 2)));
+    const Triangles outside = moved(slot, {6, 0, 0});
+    const Judged judged = judgeOnDevice({{slot, 7}, {solid, 7}, {slot, 6}, {outside, 7}, {slot, 7, 0}}, 1e-5f);
+    const std::vector<Word2> expected = {{FATE_CAVITY, 1}, {FATE_FRAGMENT, 1}, {FATE_FILM, 2}, {FATE_FILM, 3}, {FATE_FILM, 4}};
+    EXPECT_EQ(judged.fates, expected) << "of the solid's cell, inside, and not made of caps";
+    EXPECT_EQ(judged.films, 4u);
+}
+INSTANTIATE_TEST_SUITE_P(Small, Slots, testing::Values(0.0, 1e-6, -1e-6));
 
 // Bounds alone would put it into the L; and what is around it lies in another cell.
 TEST(SmallFates, OfACavityInNothingIsCounted) {

@@ -199,11 +199,12 @@ TEST(SmallRefracture, OfAFragmentThatTouchesItselfAlongAnEdge) {
 
 TEST(SmallRefracture, OfASlotThatIsOpen) { expectBreaksAgain(modelFrom(wholeOf(slotted(0x1p-20f)), 0), {2, 3, 20, 200}); }
 
-// Few sites: no cell has walls in it that lie on each other and come out at none of its faces.
+// With many sites cells have walls in them that lie on each other and come out at none of their faces.
 TEST(SmallRefracture, OfASlotWhoseWallsTouchOrPassThroughEachOtherByRounding) {
-    for (const float width : {0x1p-23f, 0.0f, -0x1p-24f, -0x1p-23f, -0x1p-22f}) {
+    for (const float width :
+         {0x1p-23f, 0x1p-22f, 0.0f, -0x1p-24f, -0x1p-23f, -0x1p-22f, -0x1p-21f, -0x1p-20f, -0x1p-18f}) {
         SCOPED_TRACE(width);
-        expectBreaksAgain(modelFrom(wholeOf(slotted(width)), 0), {2, 3});
+        expectBreaksAgain(modelFrom(wholeOf(slotted(width)), 0), {2, 3, 20, 60, 200});
     }
 }
 

@@ -104,6 +104,34 @@ TEST(Verify, TwoSolidsInOneFragment) {
     EXPECT_EQ(report.parted_fragments, 1u);
 }
 
+// Walls of a cavity that has collapsed, and whose walls have passed through each other by so much.
+TEST(Verify, CollapsedCavitiesAreNoSolids) {
+    for (const float thickness : {0.0f, 1e-7f, 3e-7f, 1e-5f, 0.1f}) {
+        Case c;
+        brittle::FragmentSet& set = c.pieces.set;
+        Fragment& left = c.left();
+        const uint32_t first_vertex = static_cast<uint32_t>(set.vertices.size()),
+                       first = static_cast<uint32_t>(set.indices.size());
+        // The piece itself, and a flat one like it in its middle.
+        for (uint32_t v = 0; v < left.vertex_count; ++v)
+            set.vertices.push_back(set.vertices[left.first_vertex + v]);
+        for (uint32_t v = 0; v < left.vertex_count; ++v) {
+            brittle::FragmentVertex& flat = set.vertices.emplace_back(set.vertices[left.first_vertex + v]);
+            flat.position[0] = -0.25f + flat.position[0] / 4;
+            flat.position[1] /= 4;
+            flat.position[2] *= thickness;
+        }
+        for (uint32_t k = 0; k < 72; ++k)
+            set.indices.push_back(set.indices[left.first_index + k % 36] + (k < 36 ? 0 : left.vertex_count));
+        left.first_vertex = first_vertex;
+        left.first_index = first;
+        left.vertex_count *= 2;
+        left.outer_index_count = 72;
+        left.inner_index_count = 0;
+        EXPECT_EQ(c.verify().parted_fragments, thickness > 1e-6f ? 1u : 0u) << thickness;
+    }
+}
+
 TEST(Verify, FragmentOfTheWrongCell) {
     Case c;
     std::swap(c.pieces.sites[0], c.pieces.sites[1]);

@@ -75,9 +75,9 @@ uint64_t countOpenEdges(const std::vector<HalfEdge>& edges) {
     return open;
 }
 
-// Volumes of the parts that hang together by edges.
-std::vector<double> partVolumes(const Welder& welder, const std::vector<Indices>& triangles,
-                                const std::vector<HalfEdge>& edges) {
+// The parts that hang together by edges, each seen from its own first corner: what lies far off loses the digits of thin ones.
+std::vector<Triangles> partsOf(const Welder& welder, const std::vector<Indices>& triangles,
+                               const std::vector<HalfEdge>& edges) {
     std::vector<uint32_t> parent(triangles.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](uint32_t t) {
@@ -87,16 +87,28 @@ std::vector<double> partVolumes(const Welder& welder, const std::vector<Indices>
     };
     for (size_t k = 1; k < edges.size(); ++k)
         if (edges[k].sameEdge(edges[k - 1])) parent[root(edges[k].triangle)] = root(edges[k - 1].triangle);
-    std::map<uint32_t, Triangles> parts;
+    std::map<uint32_t, Triangles> by_root;
     for (uint32_t t = 0; t < triangles.size(); ++t) {
-        const Indices& i = triangles[t];
-        parts[root(t)].push_back({welder.position(i[0]), welder.position(i[1]), welder.position(i[2])});
+        const Point origin = welder.position(triangles[root(t)][0]);
+        Triangle& triangle = by_root[root(t)].emplace_back();
+        for (size_t k = 0; k < 3; ++k)
+            triangle[k] = welder.position(triangles[t][k]) - origin;
     }
-    std::vector<double> volumes;
-    volumes.reserve(parts.size());
-    for (const auto& [ignored, part] : parts)
-        volumes.push_back(volumeOf(part));
-    return volumes;
+    std::vector<Triangles> parts;
+    for (auto& [ignored, part] : by_root)
+        parts.push_back(std::move(part));
+    return parts;
+}
+
+// Whether one part is a solid and all others are walls of cavities. Those of a cavity that has collapsed may have passed
+// through each other.
+bool isOneSolid(const std::vector<Triangles>& parts, double collapsed) {
+    const auto volumeIsLess = [](const Triangles& a, const Triangles& b) { return volumeOf(a) < volumeOf(b); };
+    const auto solid = std::max_element(parts.begin(), parts.end(), volumeIsLess);
+    if (solid == parts.end() || volumeOf(*solid) <= 0) return false;
+    return std::all_of(parts.begin(), parts.end(), [&](const Triangles& part) {
+        return &part == &*solid || volumeOf(part) <= collapsed * areaOf(part) / 2;
+    });
 }
 
 struct InnerTriangle {
@@ -206,9 +218,7 @@ void Checker::checkSurfaces() {
         const std::vector<Indices> triangles = welder.weld(surfaces_[f]);
         const std::vector<HalfEdge> edges = sortedHalfEdges(triangles);
         report_.open_edges += countOpenEdges(edges);
-        const std::vector<double> volumes = partVolumes(welder, triangles, edges);
-        // A cavity is a surface of negative volume inside the fragment's one outer surface.
-        report_.not_connected += std::count_if(volumes.begin(), volumes.end(), [](double v) { return v > 0; }) != 1;
+        report_.not_connected += isOneSolid(partsOf(welder, triangles, edges), limits_.collapsed * bounds_.diagonal()) ? 0 : 1;
     }
     report_.unpaired_inner = countUnpaired(std::move(inner));
 }

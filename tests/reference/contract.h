@@ -13,6 +13,7 @@ struct ContractLimits {
     double volume_error = 1e-6;   // of the model's volume
     double area_error = 1e-5;     // of the model's area
     double outside_cell = 1e-5;   // of the model's diagonal
+    double collapsed = 5e-7;      // of the diagonal: distance of walls that may be those of a cavity, whichever is inside
     uint32_t random_points = 300; // in the model's box and, as many again, close to the fragments' faces
     uint64_t seed = 1;
     uint64_t bisector_tests = 200'000'000; // where vertices x sites are more, every so-many-th vertex is tested

@@ -123,6 +123,15 @@ TEST_F(Contract, SeesTwoSolidsInOneFragment) {
     EXPECT_EQ(check().not_connected, 1u);
 }
 
+// Walls of a cavity that has collapsed, and whose walls have passed through each other by so much.
+TEST_F(Contract, AllowsCollapsedCavitiesButNoFlatSolids) {
+    const Triangles outer = piece(0).outer;
+    for (const double thickness : {0.0, 1e-7, 1e-6, 1e-5}) {
+        piece(0).outer = support::joined(outer, support::boxTriangles({.2, .2, .2}, {.8, .8, .2 + thickness}));
+        EXPECT_EQ(check().not_connected, thickness > 2e-6 ? 1u : 0u) << thickness;
+    }
+}
+
 TEST_F(Contract, AllowsACavity) {
     const Triangles cavity = support::turnedOver(support::boxTriangles({.2, .2, .2}, {.4, .4, .4}));
     piece(0).outer = support::joined(piece(0).outer, cavity);

@@ -49,6 +49,14 @@ struct ShatterRow {
     Times stages, kernels; // kernels where asked for
 };
 
+// caps=exact and caps=convex alternately, on a convex model.
+struct CapsRow {
+    uint32_t sites = 0;
+    size_t triangles = 0;
+    double exact_ms = 0, convex_ms = 0;           // the whole call
+    double exact_caps_ms = 0, convex_caps_ms = 0; // of that the stage cap_faces, on the device
+};
+
 struct StartupRow {
     double cold_ms = 0, warm_ms = 0; // a process that breaks 1280 triangles into 10 cells, without and with the driver's cache
 };
@@ -63,6 +71,7 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
 // The same number of sites in spheres of ever more triangles.
 engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options,
                                                     const Progress& progress);
+engine::Result<std::vector<CapsRow>> benchCaps(engine::Device& device, const BenchOptions& options, const Progress& progress);
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none

@@ -54,6 +54,15 @@ Json toJson(const bench::ShatterRow& shatter) {
     return row;
 }
 
+Json toJson(const bench::CapsRow& caps) {
+    return {{"sites", caps.sites},
+            {"triangles", caps.triangles},
+            {"exact_ms", caps.exact_ms},
+            {"convex_ms", caps.convex_ms},
+            {"exact_cap_faces_ms", caps.exact_caps_ms},
+            {"convex_cap_faces_ms", caps.convex_caps_ms}};
+}
+
 template <class Row>
 Json toJson(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -68,6 +77,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!cells) return cells.error();
     const auto shatters = bench::benchShatter(device, options, progress);
     if (!shatters) return shatters.error();
+    const auto caps = bench::benchCaps(device, options, progress);
+    if (!caps) return caps.error();
     const auto growth = bench::benchGrowth(device, options, progress);
     if (!growth) return growth.error();
     Json report = {{"device", device.name()},
@@ -77,6 +88,7 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
                    {"rounds", options.rounds},
                    {"cells", toJson(*cells)},
                    {"shatter", toJson(*shatters)},
+                   {"caps", toJson(*caps)},
                    {"growth", toJson(*growth)}};
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);

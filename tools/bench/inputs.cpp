@@ -47,17 +47,31 @@ void subdivide(Model& model) {
     model.triangles = std::move(finer);
 }
 
-} // namespace
-
-Model bumpySphere(uint32_t level) {
+Model unitSphere(uint32_t level) {
     Model model = icosahedron();
     for (uint32_t k = 0; k < level; ++k)
         subdivide(model);
-    for (Point& p : model.vertices) {
-        const double radius = .4 * (1 + .25 * std::sin(6 * p[0]) * std::sin(5 * p[1]) * std::sin(7 * p[2]));
-        for (double& x : p)
-            x = static_cast<double>(static_cast<float>(.5 + radius * x));
-    }
+    return model;
+}
+
+void place(Point& p, double radius) {
+    for (double& x : p)
+        x = static_cast<double>(static_cast<float>(.5 + radius * x));
+}
+
+} // namespace
+
+Model smoothSphere(uint32_t level) {
+    Model model = unitSphere(level);
+    for (Point& p : model.vertices)
+        place(p, .4);
+    return model;
+}
+
+Model bumpySphere(uint32_t level) {
+    Model model = unitSphere(level);
+    for (Point& p : model.vertices)
+        place(p, .4 * (1 + .25 * std::sin(6 * p[0]) * std::sin(5 * p[1]) * std::sin(7 * p[2])));
     return model;
 }
 

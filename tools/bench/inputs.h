@@ -14,6 +14,9 @@ struct Model {
     std::vector<std::array<uint32_t, 3>> triangles; // counter-clockwise seen from outside
 };
 
+// A convex ball within the unit box: 20 * 4^level triangles. The coordinates are floats.
+Model smoothSphere(uint32_t level);
+
 // A closed ball with bumps and dents, not convex, within the unit box: 20 * 4^level triangles. The coordinates are floats.
 Model bumpySphere(uint32_t level);
 

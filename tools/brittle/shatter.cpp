@@ -140,6 +140,7 @@ engine::Result<void> Run::breakModel() {
     options.seed = options_.seed;
     options.given_sites = given_sites_;
     options.search = options_.search;
+    options.caps = options_.caps;
     options.pattern = options_.pattern;
     options.relax = options_.relax;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
@@ -161,9 +162,10 @@ engine::Result<void> Run::verify() {
     outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
     const std::string violation = outcome_.contract.violation();
     if (violation.empty()) return {};
-    return aboutModel(
-        {engine::ErrorCode::Internal, "the fragments break their contract: " + violation +
-                                          "; nothing was written; move the sites a little, and please report it"});
+    const char* advice = options_.caps == brittle::Caps::Convex
+                             ? "; nothing was written; the model is not convex where it was cut: use --caps exact"
+                             : "; nothing was written; move the sites a little, and please report it";
+    return aboutModel({engine::ErrorCode::Internal, "the fragments break their contract: " + violation + advice});
 }
 
 engine::Result<void> Run::writeFragments() {

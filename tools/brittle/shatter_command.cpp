@@ -98,6 +98,8 @@ const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Sear
                                                           {"sphere_tree", brittle::Search::SphereTree},
                                                           {"grid", brittle::Search::Grid}};
 
+const std::map<std::string, brittle::Caps> kCaps = {{"exact", brittle::Caps::Exact}, {"convex", brittle::Caps::Convex}};
+
 // CLI11 takes -1 for the largest number, and what is too large for it as well.
 std::string wholeNumber(const std::string& text) {
     uint64_t number = 0;
@@ -169,6 +171,10 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_option("--search", options->search, "how cells find their neighbors: auto, linear, sphere_tree or grid")
         ->transform(CLI::CheckedTransformer(kSearches).description(""))
         ->option_text("NAME [auto]");
+    command
+        ->add_option("--caps", options->caps, "how cut faces are made: exact, or convex, which is faster and for convex models")
+        ->transform(CLI::CheckedTransformer(kCaps).description(""))
+        ->option_text("NAME [exact]");
     command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");

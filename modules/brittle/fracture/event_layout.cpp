@@ -182,6 +182,7 @@ void takeCaps(const Input& in, Taker& take) {
     b.segments = take.quads(c.segments);
     b.face_flags = take.words(c.neighbors);
     b.face_slots = take.words(c.neighbors + 1ull);
+    b.wide_faces = take.words(c.neighbors);
     b.large_faces = take.words(c.neighbors);
     b.huge_faces = take.words(c.neighbors);
     b.cap_counts = take.words(c.neighbors);

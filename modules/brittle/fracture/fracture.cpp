@@ -49,6 +49,7 @@ public:
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
         if (options.only_cells) capacity = forCellsOnly(capacity);
+        if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.relaxed = options.relax != 0;
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);

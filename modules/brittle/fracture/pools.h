@@ -87,8 +87,8 @@ struct EventBuffers {
     // depth and caps
     View triple_edges, edge_triple_counts, edge_triple_offsets, edge_triple_cursors, edge_sums, loose_triples, ordered_triples;
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
-    View face_flags, face_slots, faces, large_faces, huge_faces, loose_caps, cap_slots, cap_counts, cap_offsets, nodes, rings,
-        loops;
+    View face_flags, face_slots, faces, wide_faces, large_faces, huge_faces, loose_caps, cap_slots, cap_counts, cap_offsets,
+        nodes, rings, loops;
     // pieces
     View pieces, sources, parents, suspects, flap_table, flap_slots, flap_partners, edge_table, flags, flag_offsets, keys,
         values, other_keys, other_values, histogram, digit_offsets;

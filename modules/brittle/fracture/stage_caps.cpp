@@ -107,17 +107,28 @@ void recordSegments(const Event& e) {
     }
 }
 
-void recordTriangulation(const Event& e) {
+void recordConvexCaps(const Event& e) {
+    const auto& b = e.b;
+    Recorder& r = e.record;
+    r.run("cap_faces_convex", Length::counted(COUNT_FACES), engine::NoPush{},
+          {r.counts(), b.faces, b.face_offsets, b.segments, b.welded, b.loose_caps, b.cap_counts, b.wide_faces, b.cap_slots});
+    r.publish(COUNT_WIDE_FACES, e.capacity.neighbors);
+    r.runGroups("cap_fans_convex", r.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
+                {r.counts(), b.faces, b.face_offsets, b.segments, b.welded, b.shared_points, b.loose_caps, b.cap_counts,
+                 b.wide_faces, b.cap_slots});
+}
+
+void recordExactCaps(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
-    r.run("flag_faces", Length::counted(COUNT_NEIGHBORS), engine::NoPush{}, {r.counts(), b.face_offsets, b.face_flags});
-    r.scan(Length::counted(COUNT_NEIGHBORS), b.face_flags, b.sums, b.face_slots,
-           {{COUNT_FACES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.neighbors, 0, 0, 0}});
-    r.compact(Length::counted(COUNT_NEIGHBORS), b.face_slots, b.faces);
     r.run("cap_faces", Length::counted(COUNT_FACES), engine::NoPush{},
           {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
-           b.loose_caps, b.cap_counts, b.large_faces, b.huge_faces, b.cap_slots});
+           b.loose_caps, b.cap_counts, b.wide_faces, b.cap_slots});
+    r.publish(COUNT_WIDE_FACES, c.neighbors);
+    r.runGroups("cap_fans", r.groupsOf(COUNT_WIDE_FACES), c.vertices,
+                {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
+                 b.loose_caps, b.cap_counts, b.wide_faces, b.large_faces, b.huge_faces, b.cap_slots});
     r.publish(COUNT_LARGE_FACES, c.neighbors);
     r.publish(COUNT_HUGE_FACES, c.neighbors);
     r.publish(COUNT_NODES, c.nodes);
@@ -128,6 +139,20 @@ void recordTriangulation(const Event& e) {
         r.runGroups("cap_faces_huge", r.groupsOf(COUNT_HUGE_FACES), engine::NoPush{},
                     {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
                      b.loose_caps, b.cap_counts, b.huge_faces, b.nodes, b.rings, b.loops, b.cap_slots});
+}
+
+void recordTriangulation(const Event& e) {
+    const auto& b = e.b;
+    const Capacities& c = e.capacity;
+    Recorder& r = e.record;
+    r.run("flag_faces", Length::counted(COUNT_NEIGHBORS), engine::NoPush{}, {r.counts(), b.face_offsets, b.face_flags});
+    r.scan(Length::counted(COUNT_NEIGHBORS), b.face_flags, b.sums, b.face_slots,
+           {{COUNT_FACES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.neighbors, 0, 0, 0}});
+    r.compact(Length::counted(COUNT_NEIGHBORS), b.face_slots, b.faces);
+    if (e.options.caps == Caps::Convex)
+        recordConvexCaps(e);
+    else
+        recordExactCaps(e);
     r.scan(Length::counted(COUNT_FACES), b.cap_counts, b.sums, b.cap_offsets,
            {{COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.caps, 0, 0, 0}});
 }

@@ -108,12 +108,19 @@ void recordJoining(const Event& e, uint32_t first_round) {
     }
 }
 
+struct NestPush {
+    float unit, step, least;
+};
+
 // Films in which there is so much of what a film may hold at most are fragments; in the end the rest is dissolved.
 void recordSettling(const Event& e, float least, bool is_last) {
     const auto& b = e.b;
     Recorder& r = e.record;
     r.runGroups("measure_films", r.groupsOf(COUNT_FILMS), e.grid.unit(),
                 {r.counts(), b.films, b.component_start, b.values, b.pieces, b.positions, b.records});
+    if (is_last)
+        r.runGroups("nest_films", r.groupsOf(COUNT_FILMS), NestPush{e.grid.unit(), EventGrid::kStep, least},
+                    {r.counts(), b.films, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
     struct Push {
         float least;
         uint32_t is_last;
@@ -195,11 +202,10 @@ void recordMassProperties(const Event& e) {
     recordFates(e);
     const Capacities::Rare& rare = e.capacity.rare;
     if (rare.films) recordFilms(e);
-    if (rare.cavities) {
-        r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), e.grid.unit(),
+    if (rare.cavities)
+        r.runGroups("nest_cavities", r.groupsOf(COUNT_CAVITIES), NestPush{e.grid.unit(), EventGrid::kStep, 0},
                     {r.counts(), b.cavities, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
-        recordParts(e);
-    }
+    if (rare.cavities || rare.films) recordParts(e);
     r.commands().endLabel();
 }
 

@@ -86,6 +86,8 @@ private:
     void checkCell(const Fragment& fragment);
     void checkInner();
     bool isTurnedOver(const InnerTriangle& triangle, uint32_t behind) const;
+    // How far apart what is one place may have come to lie, corners being in single precision.
+    double rounding() const { return std::ldexp(4 * model_.diagonal, -23); }
     void checkSums();
     Double3 corner(uint32_t vertex) const { return positionOf(set_.vertices[vertex]); }
 
@@ -163,7 +165,8 @@ void Verifier::checkEdges() {
     }
 }
 
-// Parts hang together by edges. One of them encloses the fragment, the others can only be walls of cavities.
+// Parts hang together by edges. One of them encloses the fragment, the others can only be walls of cavities. Where these lie on
+// each other, which side they turn inward is rounding.
 void Verifier::checkParts() {
     std::vector<uint32_t> parent(triangles_.size());
     std::iota(parent.begin(), parent.end(), 0u);
@@ -174,14 +177,20 @@ void Verifier::checkParts() {
     };
     for (size_t k = 1; k < edges_.size(); ++k)
         if (edges_[k].isAlong(edges_[k - 1])) parent[root(edges_[k].triangle)] = root(edges_[k - 1].triangle);
-    std::vector<double> volume(triangles_.size(), 0);
+    std::vector<double> volume(triangles_.size(), 0), area(triangles_.size(), 0);
     for (uint32_t t = 0; t < triangles_.size(); ++t) {
         const uint32_t part = root(t);
         const Double3 origin = corner(triangles_[part][0]); // near, so that small parts keep their sign
-        volume[part] +=
-            dot(corner(triangles_[t][0]) - origin, cross(corner(triangles_[t][1]) - origin, corner(triangles_[t][2]) - origin));
+        const Double3 a = corner(triangles_[t][0]) - origin, b = corner(triangles_[t][1]) - origin,
+                      c = corner(triangles_[t][2]) - origin;
+        volume[part] += dot(a, cross(b, c)) / 6;
+        area[part] += length(cross(b - a, c - a)) / 2;
     }
-    report_.parted_fragments += std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0; }) != 1 ? 1 : 0;
+    const auto outer = static_cast<size_t>(std::ranges::max_element(volume) - volume.begin());
+    bool is_one = !volume.empty() && volume[outer] > 0;
+    for (size_t part = 0; part < volume.size(); ++part)
+        is_one = is_one && (part == outer || volume[part] <= rounding() * area[part] / 2);
+    report_.parted_fragments += is_one ? 0 : 1;
 }
 
 void Verifier::checkMeasures(const Fragment& fragment) {
@@ -247,8 +256,7 @@ bool Verifier::isTurnedOver(const InnerTriangle& triangle, uint32_t behind) cons
     const Double3 a = corner(triangle.corners[0]), b = corner(triangle.corners[1]), c = corner(triangle.corners[2]);
     const Double3 way = sites_[set_.fragments[behind].cell] - sites_[set_.fragments[triangle.fragment].cell];
     const double height = triangle.turn * dot(cross(b - a, c - a), way);
-    const double rounding = std::ldexp(4 * model_.diagonal, -23) * (length(b - a) + length(c - b) + length(a - c));
-    return height < -rounding * length(way);
+    return height < -rounding() * (length(b - a) + length(c - b) + length(a - c)) * length(way);
 }
 
 void Verifier::checkSums() {

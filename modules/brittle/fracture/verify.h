@@ -14,11 +14,11 @@ struct ContractReport {
     uint64_t unpaired_inner_triangles = 0; // without their mirror image in another fragment
     uint64_t turned_inner_triangles = 0;   // that do not face the fragment behind them, by more than rounding explains
     uint32_t hollow_fragments = 0;         // whose volume is not positive
-    uint32_t parted_fragments = 0;         // with more or less than one outer surface; walls of cavities do not count
-    double volume_error = 0;               // |sum of fragments - model| / model
-    double area_error = 0;                 // the same for outer triangles
-    double centroid_error = 0;             // of all fragments together, as a share of the diagonal
-    double outside_cell = 0;               // furthest vertex beyond its cell, as a share of the diagonal
+    uint32_t parted_fragments = 0; // with more or less than one outer surface; walls of cavities do not count, however thin
+    double volume_error = 0;       // |sum of fragments - model| / model
+    double area_error = 0;         // the same for outer triangles
+    double centroid_error = 0;     // of all fragments together, as a share of the diagonal
+    double outside_cell = 0;       // furthest vertex beyond its cell, as a share of the diagonal
 
     // The first broken promise, with what was measured and what is allowed; empty where the contract holds.
     std::string violation() const;

@@ -9,7 +9,7 @@ namespace brittle {
 // The rarer ones of large cells and faces are left out: they are made where an event meets such a case.
 inline std::vector<std::string_view> kernelsToWarm() {
     return {// long to compile, met late
-            "clip_triangles", "place_triples", "cap_faces_large", "cap_faces",
+            "clip_triangles", "place_triples", "cap_faces_large", "cap_faces", "cap_fans",
             // the end of the event, backwards from where the event itself will not have come yet
             "mass_properties", "decide_fates", "emit", "emit_objects", "allocate", "unite_triangles", "flag_components",
             "key_triangles", "publish_tiles", "radix_count", "radix_scatter", "bound_components", "classify_pieces",
