@@ -90,10 +90,10 @@ std::vector<brittle::Double3> latticeOver(const brittle::Mesh& mesh, int per_axi
         box.grow(brittle::operator+(mesh.center, brittle::toDouble(p)));
     std::vector<brittle::Double3> sites;
     for (int k = 0; k < per_axis * per_axis * per_axis; ++k) {
-        const brittle::Double3 at = {k % per_axis + 0.5, k / per_axis % per_axis + 0.5, k / per_axis / per_axis + 0.5};
+        const std::array<int, 3> at = {k % per_axis, k / per_axis % per_axis, k / per_axis / per_axis};
         brittle::Double3& site = sites.emplace_back();
         for (size_t axis = 0; axis < 3; ++axis)
-            site[axis] = box.lower[axis] + at[axis] / per_axis * (box.upper[axis] - box.lower[axis]);
+            site[axis] = box.lower[axis] + (at[axis] + 0.5) / per_axis * (box.upper[axis] - box.lower[axis]);
     }
     return sites;
 }
@@ -201,8 +201,7 @@ TEST(SmallRefracture, OfASlotThatIsOpen) { expectBreaksAgain(modelFrom(wholeOf(s
 
 // With many sites cells have walls in them that lie on each other and come out at none of their faces.
 TEST(SmallRefracture, OfASlotWhoseWallsTouchOrPassThroughEachOtherByRounding) {
-    for (const float width :
-         {0x1p-23f, 0x1p-22f, 0.0f, -0x1p-24f, -0x1p-23f, -0x1p-22f, -0x1p-21f, -0x1p-20f, -0x1p-18f}) {
+    for (const float width : {0x1p-23f, 0x1p-22f, 0.0f, -0x1p-24f, -0x1p-23f, -0x1p-22f, -0x1p-21f, -0x1p-20f, -0x1p-18f}) {
         SCOPED_TRACE(width);
         expectBreaksAgain(modelFrom(wholeOf(slotted(width)), 0), {2, 3, 20, 60, 200});
     }

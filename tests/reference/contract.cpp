@@ -95,6 +95,7 @@ std::vector<Triangles> partsOf(const Welder& welder, const std::vector<Indices>&
             triangle[k] = welder.position(triangles[t][k]) - origin;
     }
     std::vector<Triangles> parts;
+    parts.reserve(by_root.size());
     for (auto& [ignored, part] : by_root)
         parts.push_back(std::move(part));
     return parts;
