@@ -31,7 +31,7 @@ WRITES(10, uint, cap_counts);
 READS(11, uint, large_faces);
 layout(set = 0, binding = 12, std430) coherent buffer nodes_block { ivec4 nodes[]; }; // x, y, name, state
 layout(set = 0, binding = 13, std430) coherent buffer rings_block { uvec4 rings[]; }; // next, previous, loop, scratch
-layout(set = 0, binding = 14, std430) coherent buffer loops_block { ivec4 loops[]; }; // of a loop's first node: turns left?, rightmost
+layout(set = 0, binding = 14, std430) coherent buffer loops_block { ivec4 loops[]; }; // of a loop's first node: turns left?, rightmost; z: corners that are left
 READS(15, uint, cap_slots);
 #include "lib/cap_plane.glsl"
 
@@ -124,11 +124,27 @@ uint bestWayOut(uint n, uint into, uint place) {
     return best;
 }
 
+// Where one edge leaves a place, it follows the one that comes there, and nothing else has to be looked at.
+bool isChained(uint n, uint into, uint place) {
+    uint exits = 0u, follow = 0u;
+    for (uint s = 0u; s < n; s++) {
+        ivec4 node = nodes[base + s];
+        bool leaves = node.w != DEAD && uint(node.z) == place;
+        follow = leaves ? s : follow;
+        exits += leaves ? 1u : 0u;
+    }
+    if (exits == 1u) {
+        rings[base + into].x = follow;
+        rings[base + follow].y = into;
+    }
+    return exits == 1u;
+}
+
 // The lane of the lowest edge into a place serves all edges there, so that ways in and out pair off one to one.
 void chainEdges(uint lane, uint n) {
     for (uint k = lane; k < n; k += LANES) {
         uint place = rings[base + k].z;
-        bool leads = live(k);
+        bool leads = live(k) && !isChained(n, k, place);
         for (uint s = 0u; s < k && leads; s++) leads = !(live(s) && rings[base + s].z == place);
         uint into = k;
         for (uint served = 0u; served < 64u && leads; served++) {
@@ -426,7 +442,7 @@ void main() {
                     rings[base + k].w = 1u; // two corners left: nothing between them
                 } else {
                     rings[base + k].w = 0u;
-                    atomicAdd(alive_total, 1u);
+                    loops[base + atomicAdd(alive_total, 1u)].z = int(k);
                     ivec2 a = at(previousOf(k)), b = at(k), c = at(nextOf(k));
                     if (wary || turn(a, b, c) <= 0) reflex_list[atomicAdd(reflex_total, 1u)] = k;
                     if (isSpike(a, b, c)) atomicAdd(spike_total, 1u);
@@ -435,17 +451,17 @@ void main() {
         }
         sync();
         finished = alive_total == 0u;
-        for (uint k = lane; k < node_total; k += LANES) {
-            bool candidate = live(k) && rings[base + k].w == 0u;
-            uint p = candidate ? previousOf(k) : 0u, s = candidate ? nextOf(k) : 0u;
+        // From the list of those that are left: lanes of corners that are gone would wait for the others.
+        for (uint i = lane; i < alive_total; i += LANES) {
+            uint k = uint(loops[base + i].z), p = previousOf(k), s = nextOf(k);
             ivec2 a = at(p), b = at(k), c = at(s);
             int size = turn(a, b, c);
             // Spikes go before ears: where a hole fills its outline, or runs along it, all of that is spikes, one after the
             // other, while its ears seem to be there twice.
             bool spikes = spike_total != 0u;
             bool nearly = phase == 3u && isEarButForRounding(a, b, c);
-            bool test = candidate && (size > 0 || nearly) && phase < 4u && budget > 0u && !spikes;
-            bool ear = candidate && (spikes ? isSpike(a, b, c) : size > 0 || nearly || (phase >= 2u && size == 0) || phase >= 5u);
+            bool test = (size > 0 || nearly) && phase < 4u && budget > 0u && !spikes;
+            bool ear = spikes ? isSpike(a, b, c) : size > 0 || nearly || (phase >= 2u && size == 0) || phase >= 5u;
             for (uint r = 0u; r < reflex_total && test && ear; r++) {
                 uint q = reflex_list[r];
                 bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;
