@@ -1,24 +1,21 @@
 // A Voronoi cell while one lane cuts it in fp32: planes, corners as triples of planes, and a list of candidates.
 //
 // Walls of the box are mirrored sites, so that every plane is a bisector d.w <= d.d, with d the way to the other site (exact
-// in fp32) and w = 2 (v - site). Each corner keeps w and a bound of its error; a test that does not clear the bounds
-// (roundoff 2^-23 an operation, since Vulkan fixes no rounding mode; contraction only helps) is put off until the other cuts
-// are made, and where it is still open then the exact kernel goes on with the cell.
+// in fp32) and w = 2 (v - site). Each corner keeps w and a bound of its error; a test that does not clear the bounds is put off
+// until the other cuts are made, and where it is still open then the exact kernel goes on with the cell.
 //
 // An `if` is no saving where lanes run in step: the search for a bisector that cuts is a loop of its own, cutting another.
 // Looks at all corners are unrolled: with fixed places an array is as cheap as registers, with computed ones ten times dearer.
 //
 // Wants bin_sites, raw, cell_raw and the push constants box_low and box_high declared.
+#include "lib/filter_bounds.glsl"
+
 #define PLANES RAW_PLANES
 #define CORNERS 52
 #define LIST 64
 #define ALL_CORNERS(k) [[unroll]] for (uint k = 0u; k < CORNERS; k++)
 
-const float kRoundoff = 1.0 / 8388608.0;
-const float kCornerError = 12.0 * kRoundoff;
-const float kTestError = 8.0 * kRoundoff;
 const uint kNoKey = 0xffffffffu;
-const float kMaxRelativeError = 0.2; // beyond, a corner says nothing
 
 const uint kSearching = 1u, kPutOff = 2u, kFinished = 3u;
 
@@ -58,8 +55,6 @@ void setCorner(uint slot, vec3 w, float error) {
     corner_z[slot] = w.z;
     corner_error[slot] = error;
 }
-
-float sumOfSizes(vec3 w) { return abs(w.x) + abs(w.y) + abs(w.z); }
 
 // The greatest of several floats and 0 is the greatest of their bits as integers, which is an instruction instead of three.
 
@@ -300,26 +295,4 @@ void cutByListed(uint lane, ivec3 site) {
     for (uint k = 0u; k < count; k++) key[k] = kNoKey;
     budget -= min(budget, count + 1u);
     count = 0u;
-}
-
-void writeCell(uint self) {
-    // Straight through for all lanes: a cell that is not done writes no planes and no corners.
-    uint base = self * RAW_WORDS, live = 0u;
-    bool ok = status == CELL_OK;
-    uint planes = ok ? plane_count : 0u;
-    uint low = ok ? ~free_low : 0u, high = ok ? ~free_high & ((1u << (CORNERS - 32u)) - 1u) : 0u;
-    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) {
-        uint t = triple[takeLowest(low, high)];
-        raw[base + 2u + PLANES + live] = t;
-        rim[t & 255u] = 1;
-        rim[(t >> 8) & 255u] = 1;
-        rim[t >> 16] = 1;
-        live++;
-    }
-    for (uint k = 0u; k < planes; k++) raw[base + 2u + k] = rim[k] != 0 ? plane_id[k] : NO_INDEX;
-    uint open = ok ? open_count : 0u;
-    for (uint k = 0u; k < MOST_OPEN && k < open; k++) raw[base + RAW_OPEN + k] = uint(bin_sites[put_off[k]].w);
-    cell_raw[self] = uvec2(base, 0u);
-    raw[base] = open != 0u ? CELL_OPEN | (open << 8) : status;
-    raw[base + 1u] = planes | (live << 16);
 }

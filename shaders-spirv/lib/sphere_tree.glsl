@@ -22,5 +22,3 @@ uint radiusBits(ivec3 d) {
     float square = dot(vec3(d), vec3(d));
     return floatBitsToUint(square * (1.0 + 1.0 / 1048576.0));
 }
-
-int64_t squareOf(ivec3 d) { return int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z); }

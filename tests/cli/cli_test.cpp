@@ -141,6 +141,9 @@ TEST_F(Cli, BadUsageIsRefused) {
     expectRefused({"shatter", "builtin:cube", "--explode", "nan"}, 2);
     for (const char* size : {"0", "4", "48", "512", "-64", "many"})
         expectRefused({"shatter", "builtin:cube", "--group-size", size}, 2);
+    expectRefused({"shatter", "builtin:cube", "--cells", "corners"}, 2);
+    for (const char* search : {"linear", "sphere_tree"})
+        expectRefused({"shatter", "builtin:cube", "--cells", "edges", "--search", search}, 2);
     expectRefused({"shatter", "builtin:nothing"}, 2);
     expectRefused({"shatter", path("missing.obj")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);

@@ -50,6 +50,11 @@ struct FilterPush {
     uint32_t slots, turn_budget;
 };
 
+struct EdgesPush {
+    Int4 bins, box_low, box_high;
+    uint32_t slots;
+};
+
 // Queues and raw cells of the classes lie one after the other.
 CutPush cutPush(const SiteSet& set, const BinnedSites& binned, uint32_t size_class, Path path) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
@@ -161,7 +166,10 @@ RawCells cutRaw(const SiteSet& set, Path path) {
     const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
         const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
-        if (path == Path::FilteredLinear)
+        if (path == Path::FilteredEdges)
+            commands.dispatchGroups(kernel("cut_cells_edges"), n, EdgesPush{push.bins, push.box_low, push.box_high, n},
+                                    {counts.words, sites, bin_start, bin_sites, result.raw, result.at});
+        else if (path == Path::FilteredLinear)
             commands.dispatch(kernel("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at});
         else if (tree)
             commands.dispatch(

@@ -20,6 +20,7 @@ enum class Path {
     Filtered,       // as in a fracture: fp32 first, what is not certain again in integers
     FilteredLinear, // the same, with neighbors looked for otherwise
     FilteredTree,
+    FilteredEdges, // the same with a workgroup a cell and a lane an edge
     Exact // in integers from the start
 };
 

@@ -140,6 +140,7 @@ engine::Result<void> Run::breakModel() {
     options.seed = options_.seed;
     options.given_sites = given_sites_;
     options.search = options_.search;
+    options.cells = options_.cells;
     options.pattern = options_.pattern;
     options.relax = options_.relax;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),

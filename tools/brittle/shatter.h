@@ -22,6 +22,7 @@ struct ShatterOptions {
     double strength = 1;                // joules
     uint32_t relax = 0;                 // rounds of Lloyd's relaxation
     brittle::Search search = brittle::Search::Auto;
+    brittle::CellMapping cells = brittle::CellMapping::Auto;
     double explode = 0;
     uint32_t sites = 100;
     uint64_t seed = 1;

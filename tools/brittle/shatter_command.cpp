@@ -97,6 +97,8 @@ const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Sear
                                                           {"linear", brittle::Search::Linear},
                                                           {"sphere_tree", brittle::Search::SphereTree},
                                                           {"grid", brittle::Search::Grid}};
+const std::map<std::string, brittle::CellMapping> kMappings = {
+    {"auto", brittle::CellMapping::Auto}, {"lanes", brittle::CellMapping::Lanes}, {"edges", brittle::CellMapping::Edges}};
 
 // CLI11 takes -1 for the largest number, and what is too large for it as well.
 std::string wholeNumber(const std::string& text) {
@@ -165,6 +167,12 @@ void addShatter(CLI::App& app, int& exit_code) {
     addPattern(*command, options);
     command->add_option("--search", options->search, "how cells find their neighbors: auto, linear, sphere_tree or grid")
         ->transform(CLI::CheckedTransformer(kSearches).description(""))
+        ->option_text("NAME [auto]");
+    command
+        ->add_option(
+            "--cells", options->cells,
+            "how cells are spread over the device: auto, lanes (a lane a cell) or edges (a lane an edge, as in the paper)")
+        ->transform(CLI::CheckedTransformer(kMappings).description(""))
         ->option_text("NAME [auto]");
     command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,

@@ -91,6 +91,7 @@ private:
         return options.given_sites.empty() && options.pattern == Pattern::Impact;
     }
     static Search searchOf(const FractureOptions& options, const EventGrid& grid) {
+        if (options.cells == CellMapping::Edges) return Search::Grid;
         return chosenSearch(options.search, aboutImpact(options) || grid.fullest_bin > kCrowdedBin);
     }
     static uint32_t siteCount(const FractureOptions& options) {
@@ -120,6 +121,10 @@ private:
             return engine::Error{engine::ErrorCode::Capacity, "linear search takes at most " +
                                                                   std::to_string(MOST_LINEAR_SITES) +
                                                                   " sites; search by grid or sphere_tree"};
+        if (options.cells == CellMapping::Edges && options.search != Search::Auto && options.search != Search::Grid)
+            return engine::Error{
+                engine::ErrorCode::BadInput,
+                "cells by edges find their neighbors by grid only; leave the search out or cut cells by lanes"};
         if (mesh.triangles.empty()) return engine::Error{engine::ErrorCode::BadInput, "the mesh has no triangles"};
         if (mesh.triangles.size() > kMostTriangles)
             return engine::Error{engine::ErrorCode::Capacity,

@@ -5,6 +5,7 @@
 #include "engine/device.h"
 #include "engine/kernel.h"
 #include "engine/result.h"
+#include "modules/brittle/fracture/cell_mapping.h"
 #include "modules/brittle/fracture/fragments.h"
 #include "modules/brittle/fracture/pattern.h"
 #include "modules/brittle/fracture/search.h"
@@ -24,8 +25,9 @@ struct FractureOptions {
     Impact impact;      // of the patterns that have one
     uint32_t relax = 0; // rounds in which each site goes to the centroid of its cell (Lloyd 1982)
     Search search = Search::Auto;
-    bool only_cells = false;   // stop once the Voronoi cells are there: no fragments, for measuring
-    bool time_kernels = false; // timings name kernels, not stages
+    CellMapping cells = CellMapping::Auto; // edges: by grid, other searches are refused
+    bool only_cells = false;               // stop once the Voronoi cells are there: no fragments, for measuring
+    bool time_kernels = false;             // timings name kernels, not stages
 };
 
 struct FractureCounts {
