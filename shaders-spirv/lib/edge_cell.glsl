@@ -56,6 +56,13 @@ void startCell(uint lane, ivec3 site, ivec3 box_low, ivec3 box_high) {
 
 uint edgeTurns() { return edge_count / LANES + 1u; }
 
+#ifdef DOUBLES
+bool cutsInDoubles(uint planes, vec3 e) {
+    RoundedPlane a = roundedBisector(real3(plane_d[planes & 0xffu].xyz)), b = roundedBisector(real3(plane_d[(planes >> 8) & 0xffu].xyz));
+    return roundedCuts(a, b, roundedBisector(real3(plane_d[planes >> 16].xyz)), roundedBisector(real3(e)));
+}
+#endif
+
 // Which corners go, whether any does, and whether any is in question.
 void lookAtCorners(uint lane, vec3 e) {
     float size = length(e), square = dot(e, e);
@@ -63,8 +70,12 @@ void lookAtCorners(uint lane, vec3 e) {
     for (uint k = 0u; k < turns; k++) {
         uint t = k * LANES + lane;
         vec4 c = corner_place[min(t, corner_top - 1u)];
-        float beyond = dot(c.xyz, e) - square, error = size * c.w + square * kTestError;
-        bool goes = beyond > error, in_doubt = beyond >= -error && !goes;
+        float beyond = dot(c.xyz, e) - square, error = kFast ? 0.0 : size * c.w + square * kTestError;
+        bool goes = beyond > error, in_doubt = !kFast && beyond >= -error && !goes;
+#ifdef DOUBLES
+        goes = goes || (in_doubt && cutsInDoubles(triple_copies[copy][min(t, corner_top - 1u)], e));
+        in_doubt = false;
+#endif
         if (onCorner(t)) corner_goes[t] = goes ? 1u : 0u;
         if (onCorner(t) && goes) removed_count = 1u;
         if (onCorner(t) && in_doubt) open_count = 1u;
@@ -120,7 +131,8 @@ void makeCorner(uint slot, uint a, uint b, uint c) {
     vec3 across = cross(da, db);
     float sa = length(da), sb = length(db), sc = length(dc), inverse = 1.0 / dot(dc, across);
     vec3 w = (dot(db, db) * cross(dc, da) - dot(da, da) * cross(dc, db) + dot(dc, dc) * across) * inverse;
-    float size = length(w), error = kCornerError * sa * sb * sc * abs(inverse) * (sa + sb + sc + size) + kTestError * sumOfSizes(w);
+    float size = length(w);
+    float error = kFast ? 0.0 : kCornerError * sa * sb * sc * abs(inverse) * (sa + sb + sc + size) + kTestError * sumOfSizes(w);
     corner_copies[1u - copy][slot] = vec4(w, error);
     triple_copies[1u - copy][slot] = a | (b << 8) | (c << 16);
     if (!(error < kMaxRelativeError * size)) trouble = 1u;

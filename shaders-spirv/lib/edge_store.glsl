@@ -1,5 +1,6 @@
 // A cell as lib/edge_cell.glsl cuts it, in shared memory: planes, corners with their planes, and edges.
 #include "lib/filter_bounds.glsl"
+#include "lib/rounded_cut.glsl"
 
 #define PLANES RAW_PLANES
 #define CORNERS RAW_CORNERS

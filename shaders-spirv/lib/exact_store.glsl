@@ -2,6 +2,7 @@
 // positive volume. In shared memory, or for the larger kernels in a buffer, a store a workgroup.
 // Slots of corners that are gone are taken again before new ones are.
 #include "lib/filter_bounds.glsl"
+#include "lib/rounded_cut.glsl"
 
 #ifdef GLOBAL_STORE
 struct CellStore {
@@ -80,7 +81,24 @@ void setPlane(uint p, Plane plane) {
     plane_r[p] = uvec2(uint(uint64_t(plane.r)), uint(uint64_t(plane.r) >> 32));
 }
 
+RoundedPlane roundedPlaneAt(uint p) {
+    Plane plane = planeAt(p);
+    if (plane.id < BOX_BASE) return roundedBisector(real3(plane.d));
+    return RoundedPlane(real3(plane.d), real(plane.r) * kGridUnit);
+}
+
+void makeRoundedCorner(uint t, uint p, uint q, uint r) {
+    RoundedPlane a = roundedPlaneAt(p), b = roundedPlaneAt(q), c = roundedPlaneAt(r);
+    vec3 w = vec3(roundedMoment(a, b, c) / (roundedVolume(a, b, c) * kGridUnit));
+    corner_planes[t] = uvec2(p | (q << 16), r);
+    corner_place[t] = vec4(w, kPlaceError * sumOfSizes(w));
+}
+
 void makeCorner(uint t, uint a, uint b, uint c) {
+    if (!kExact) {
+        makeRoundedCorner(t, a, b, c);
+        return;
+    }
     Corner corner = cornerOf(planeAt(a), planeAt(b), planeAt(c));
     corner_planes[t] = uvec2(a | (b << 16), c);
     saveWide(t, 0u, corner.moment[0]);

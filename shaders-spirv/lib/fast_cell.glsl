@@ -9,6 +9,7 @@
 //
 // Wants bin_sites, raw, cell_raw and the push constants box_low and box_high declared.
 #include "lib/filter_bounds.glsl"
+#include "lib/rounded_cut.glsl"
 
 #define PLANES RAW_PLANES
 #define CORNERS 52
@@ -122,7 +123,7 @@ bool mayCut(vec3 e) { return furthestAlong(e) >= dot(e, e) * (1.0 - kTestError);
 
 // The corners that e removes for certain, and whether it may remove others.
 struct Look {
-    uint gone_low, gone_high;
+    uint gone_low, gone_high, doubt_low, doubt_high; // who is in doubt may be gone or not
     bool unsure;
 };
 
@@ -130,15 +131,32 @@ Look lookOver(vec3 e) {
     uint gone_low = 0u, gone_high = 0u, doubt_low = 0u, doubt_high = 0u;
     float size = length(e), square = dot(e, e), slack = square * kTestError;
     ALL_CORNERS(k) {
-        float beyond = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z - square, error = size * corner_error[k] + slack;
-        uint bit = 1u << (k & 31u), gone = beyond > error ? bit : 0u, doubt = beyond >= -error ? bit : 0u;
+        float beyond = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z - square, error = kFast ? 0.0 : size * corner_error[k] + slack;
+        uint bit = 1u << (k & 31u), gone = beyond > error ? bit : 0u, doubt = kFast ? gone : (beyond >= -error ? bit : 0u);
         if (k < 32u) gone_low |= gone;
         else gone_high |= gone;
         if (k < 32u) doubt_low |= doubt;
         else doubt_high |= doubt;
     }
-    return Look(gone_low, gone_high, gone_low != doubt_low || gone_high != doubt_high);
+    bool unsure = gone_low != doubt_low || gone_high != doubt_high;
+    return Look(gone_low, gone_high, doubt_low & ~gone_low, doubt_high & ~gone_high, unsure);
 }
+
+#ifdef DOUBLES
+// Decides in fp64 what is in doubt in fp32.
+void settle(inout Look look, vec3 e) {
+    RoundedPlane cut = roundedBisector(real3(e));
+    for (uint k = 0u; k < CORNERS && (look.doubt_low | look.doubt_high) != 0u; k++) {
+        uint t = takeLowest(look.doubt_low, look.doubt_high), planes = triple[t], bit = 1u << (t & 31u);
+        RoundedPlane a = roundedBisector(real3(planeAt(planes & 255u))), b = roundedBisector(real3(planeAt((planes >> 8) & 255u)));
+        bool gone = roundedCuts(a, b, roundedBisector(real3(planeAt(planes >> 16))), cut);
+        look.gone_low |= gone && t < 32u ? bit : 0u;
+        look.gone_high |= gone && t >= 32u ? bit : 0u;
+        budget -= min(budget, 1u);
+    }
+    look.unsure = false;
+}
+#endif
 
 uint nearestListed() {
     uint even = kNoKey, odd = kNoKey;
@@ -207,7 +225,7 @@ void closeRim(bool cuts, uint start, vec3 e) {
         float there_size = length(there), inverse = 1.0 / dot(e, across);
         vec3 w = (dot(there, there) * past - dot(here, here) * ahead + dot(e, e) * across) * inverse;
         float size = length(w);
-        float error = kCornerError * here_size * there_size * e_size * abs(inverse) * (here_size + there_size + e_size + size) +
+        float error = kFast ? 0.0 : kCornerError * here_size * there_size * e_size * abs(inverse) * (here_size + there_size + e_size + size) +
                       kTestError * sumOfSizes(w);
         status = sum != 0 && error < kMaxRelativeError * size ? status : CELL_UNDECIDED;
         uint slot = takeFree();
@@ -286,6 +304,9 @@ void cutByListed(uint lane, ivec3 site) {
             budget -= min(budget, 1u);
         }
         Look look = lookOver(e);
+#ifdef DOUBLES
+        if (found) settle(look, e);
+#endif
         if (found && look.unsure) putOff(place);
         bool cuts = found && !look.unsure;
         cutBy(cuts ? look.gone_low : 0u, cuts ? look.gone_high : 0u, e, uint(bin_sites[place].w));

@@ -141,6 +141,7 @@ engine::Result<void> Run::breakModel() {
     options.given_sites = given_sites_;
     options.search = options_.search;
     options.cells = options_.cells;
+    options.precision = options_.precision;
     options.pattern = options_.pattern;
     options.relax = options_.relax;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
@@ -162,9 +163,10 @@ engine::Result<void> Run::verify() {
     outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
     const std::string violation = outcome_.contract.violation();
     if (violation.empty()) return {};
+    const bool exact = options_.precision == brittle::Precision::Exact;
     return aboutModel(
-        {engine::ErrorCode::Internal, "the fragments break their contract: " + violation +
-                                          "; nothing was written; move the sites a little, and please report it"});
+        {engine::ErrorCode::Internal, "the fragments break their contract: " + violation + "; nothing was written; " +
+                                          (exact ? "move the sites a little, and please report it" : "use --precision exact")});
 }
 
 engine::Result<void> Run::writeFragments() {

@@ -99,6 +99,8 @@ const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Sear
                                                           {"grid", brittle::Search::Grid}};
 const std::map<std::string, brittle::CellMapping> kMappings = {
     {"auto", brittle::CellMapping::Auto}, {"lanes", brittle::CellMapping::Lanes}, {"edges", brittle::CellMapping::Edges}};
+const std::map<std::string, brittle::Precision> kPrecisions = {
+    {"exact", brittle::Precision::Exact}, {"double", brittle::Precision::Double}, {"fast", brittle::Precision::Fast}};
 
 // CLI11 takes -1 for the largest number, and what is too large for it as well.
 std::string wholeNumber(const std::string& text) {
@@ -174,6 +176,11 @@ void addShatter(CLI::App& app, int& exit_code) {
             "how cells are spread over the device: auto, lanes (a lane a cell) or edges (a lane an edge, as in the paper)")
         ->transform(CLI::CheckedTransformer(kMappings).description(""))
         ->option_text("NAME [auto]");
+    command
+        ->add_option("--precision", options->precision,
+                     "of the decisions: exact, double or fast; what is not exact may fail its check, and then writes nothing")
+        ->transform(CLI::CheckedTransformer(kPrecisions).description(""))
+        ->option_text("NAME [exact]");
     command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");

@@ -44,6 +44,9 @@ public:
     engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                            const FractureOptions& options) override {
         auto start = Clock::now();
+        if (options.precision == Precision::Double && !device_.features().doubles)
+            return engine::Error{engine::ErrorCode::Device,
+                                 device_.name() + " has no 64-bit floats in shaders, which precision double needs; use exact"};
         auto prepared = prepare(mesh, options);
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
@@ -59,7 +62,7 @@ public:
             met_ = capacity.rare;
             if (!again) {
                 auto checked = checkStatus(outcome->status);
-                if (!checked) return checked.error();
+                if (!checked) return advised(checked.error(), options.precision);
                 outcome->result.setup_ms = millisecondsSince(start) - outcome->result.total_ms;
                 return std::move(outcome->result);
             }
@@ -86,6 +89,11 @@ private:
     static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
         uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
         return static_cast<uint32_t>(std::min<uint64_t>(fit, 1u << 28)) / 256 * 256;
+    }
+    static engine::Error advised(engine::Error error, Precision precision) {
+        if (precision != Precision::Exact && error.code != engine::ErrorCode::BadInput)
+            error.message += "; at precision " + std::string(nameOf(precision)) + " signs may be wrong, use exact";
+        return error;
     }
     static bool aboutImpact(const FractureOptions& options) {
         return options.given_sites.empty() && options.pattern == Pattern::Impact;
@@ -220,7 +228,7 @@ private:
         addSites(upload, p, sites, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();
-        Recorder recorder(commands, kernels_, b.counts, b.args);
+        Recorder recorder(commands, kernels_, b.counts, b.args, options.precision);
         recorder.clear({b.counts, b.args, b.placed, b.raw_sites});
         upload.copy(commands, *staging);
         const Search search = searchOf(options, p.grid);
