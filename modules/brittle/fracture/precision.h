@@ -1,5 +1,5 @@
 // How the signs are found that decide which cell a point lies in. What is not exact may get close cases wrong, and ties always:
-// cells then disagree, and fragments break their contract. Places are whole numbers of the same grid whatever it is.
+// cells then disagree, and the event fails, or its fragments break their contract.
 #pragma once
 
 #include <cstdint>
