@@ -81,6 +81,7 @@ Result<void> Device::createLogical() {
     if (features_.push_descriptors) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     VkPhysicalDeviceFeatures enabled{};
     enabled.shaderInt64 = VK_TRUE;
+    enabled.shaderFloat64 = features_.doubles ? VK_TRUE : VK_FALSE;
     enabled.multiDrawIndirect = features_.multi_draw_indirect ? VK_TRUE : VK_FALSE;
     enabled.drawIndirectFirstInstance = features_.draw_indirect_first_instance ? VK_TRUE : VK_FALSE;
     enabled.fragmentStoresAndAtomics = features_.shader_stores ? VK_TRUE : VK_FALSE;

@@ -104,6 +104,7 @@ OptionalFeatures optionalFeatures(VkPhysicalDevice device) {
     optional.multi_draw_indirect = features.multiDrawIndirect == VK_TRUE;
     optional.draw_indirect_first_instance = features.drawIndirectFirstInstance == VK_TRUE;
     optional.driver_properties = hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+    optional.doubles = features.shaderFloat64 == VK_TRUE;
     optional.shader_stores = features.fragmentStoresAndAtomics == VK_TRUE && features.vertexPipelineStoresAndAtomics == VK_TRUE;
     return optional;
 }

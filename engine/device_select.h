@@ -24,6 +24,7 @@ struct OptionalFeatures {
     bool multi_draw_indirect = false;          // else: one call per draw command
     bool draw_indirect_first_instance = false; // else: no renderer
     bool driver_properties = false;            // else: a driver without a name
+    bool doubles = false;                      // in shaders; else: kernels that name them are not loaded
     bool shader_stores = false;                // only the GPU-assisted validation wants it
 };
 

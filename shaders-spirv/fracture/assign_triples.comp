@@ -24,6 +24,7 @@ void main() {
     triple_edges[k] = e;
     if (e == NO_INDEX) {
         atomicAdd(counts[STATUS_BAD_LOOKUP], 1u);
+        atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
     } else {
         atomicAdd(edge_triple_counts[e], 1u);
         atomicAdd(edge_sums[e], triple_signs[k]);

@@ -7,6 +7,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/precision.glsl"
 
 #ifndef LANES
 #define LANES 64
@@ -162,6 +163,19 @@ void chainEdges(uint lane, uint n) {
         }
     }
     sync();
+}
+
+// Signs that were rounded may leave an outline open: nothing can be chained into loops then.
+bool hasGaps(uint lane, uint n) {
+    if (lane == 0u) cleared = 0u;
+    sync();
+    for (uint k = lane; k < n; k += LANES) {
+        if (live(k) && (nextOf(k) == NO_INDEX || previousOf(k) == NO_INDEX)) cleared = 1u;
+    }
+    sync();
+    bool gaps = cleared != 0u;
+    sync();
+    return gaps;
 }
 
 // The loop of each node: its lowest node, by pointer jumping.
@@ -417,6 +431,14 @@ void main() {
     sync();
     loadEdges(lane, first, n);
     chainEdges(lane, n);
+    if (!kExact && hasGaps(lane, n)) {
+        if (lane == 0u) {
+            atomicAdd(counts[STATUS_OPEN_OUTLINES], 1u);
+            atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
+            cap_counts[index] = 0u;
+        }
+        n = 0u;
+    }
     labelLoops(lane, n);
     measureLoops(lane, n);
     if (lane == 0u && (hole_total > MAX_LOOPS || outer_total > MAX_LOOPS)) atomicAdd(counts[STATUS_BAD_CAP], 1u);

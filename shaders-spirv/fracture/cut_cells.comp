@@ -23,6 +23,7 @@ layout(push_constant) uniform Push {
     uint turn_budget;
 };
 #include "lib/fast_cell.glsl"
+#include "lib/cell_order.glsl"
 #ifdef SEARCH_LINEAR
 #include "lib/search_linear.glsl"
 #elif defined(SEARCH_TREE)

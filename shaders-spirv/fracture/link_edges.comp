@@ -4,9 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/diagram.glsl"
+#include "lib/precision.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, uvec4, cell_offsets);
 READS(2, uvec4, corners);
 READS(3, uvec2, corner_info);
@@ -44,6 +45,11 @@ void main() {
     uvec4 end = corners[named.x];
     uvec3 edge = uvec3(corner_info[named.x].x, end[named.y], end[(named.y + 1u) % 3u]);
     uint begin = beginOf(edge);
+    if (!kExact && begin == NO_INDEX) { // the cell is not closed
+        atomicAdd(counts[STATUS_BAD_DIAGRAM], 1u);
+        atomicOr(counts[STATUS_FAILED], FAILED_CELLS);
+        begin = named.x;
+    }
     edge_sites[e] = uvec4(edge, 0u);
     edge_ends[e] = uvec2(vertexAt(edge, corners[begin]), vertexAt(edge, end));
 }

@@ -29,11 +29,44 @@ Wide128 orientation(ivec3 a, ivec3 b, ivec3 c, ivec3 x) {
     return wideAdd(wideAdd(wideMul(nx, int64_t(d.x)), wideMul(ny, int64_t(d.y))), wideMul(nz, int64_t(d.z)));
 }
 
+// Where a triple point lies along its Voronoi edge, in floating point: rounded, but a number, so that any of them are in order. The
+// same operations for all who ask.
+real placeAlong(uint point) {
+    uvec4 triple = triples[point];
+    ivec3 qi = sites[triple.y].xyz, qj = sites[triple.z].xyz, qk = sites[triple.w].xyz;
+    precise real3 along = cross(real3(qj - qi), real3(qk - qi)) * real(1.0 / 33554432.0), j, k, x;
+    for (uint c = 0u; c < 3u; c++) {
+        ivec3 p = vertexOf(triple.x, c);
+        j[c] = real(cornerValue(qi, qj, p)) * real(1.0 / 33554432.0);
+        k[c] = real(cornerValue(qi, qk, p)) * real(1.0 / 33554432.0);
+        x[c] = dot(along, real3(p - qi));
+    }
+    precise real3 m = cross(j, k);
+    precise real place = dot(m, x) / (m.x + m.y + m.z);
+    return abs(place) < real(1e30) ? place : real(0);
+}
+
+void orderRounded(uint mine, uint first, uint last) {
+    real here = placeAlong(mine);
+    uint before = 0u, level = 0u;
+    for (uint s = first; s < last; s++) {
+        uint other = loose_triples[s];
+        real there = placeAlong(other);
+        before += there < here ? 1u : 0u;
+        level += there == here && other < mine ? 1u : 0u;
+    }
+    ordered_triples[first + before + level] = uvec2(mine, before);
+}
+
 void main() {
     uint at = flatIndex();
     if (at >= counts[COUNT_TRIPLES] || counts[STATUS_FAILED] != 0u) return;
     uint mine = loose_triples[at];
     uint e = triple_edges[mine];
+    if (!kExact) {
+        orderRounded(mine, edge_triple_offsets[e], edge_triple_offsets[e + 1u]);
+        return;
+    }
     uvec4 triple = triples[mine];
     ivec3 p[3] = ivec3[3](vertexOf(triple.x, 0u), vertexOf(triple.x, 1u), vertexOf(triple.x, 2u));
     ivec3 qi = sites[triple.y].xyz, qj = sites[triple.z].xyz, qk = sites[triple.w].xyz;

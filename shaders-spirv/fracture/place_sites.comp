@@ -28,7 +28,7 @@ UPDATES(7, uint, placed);
 // A point of the ball of radius 2^15, or, three times in seven, none.
 bool drawInBall(uint site, uint attempt, out ivec3 d) {
     d = ivec3(below(draw(site, attempt, 0u), 65537u), below(draw(site, attempt, 1u), 65537u), below(draw(site, attempt, 2u), 65537u)) - 32768;
-    int64_t square = int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z);
+    int64_t square = squaredLength(d);
     return !isNegative((int64_t(1) << 30) - square) && d != ivec3(0);
 }
 
@@ -41,7 +41,7 @@ bool drawPlace(uint site, uint attempt, out ivec3 p) {
     uint64_t u = (uint64_t(draw(site, attempt, 3u)) * (range >> 1)) >> 31; // the product has 64 bits
     bool core = (u >> 32) == 0ul && uint(u) < 0x55555555u;
     uint64_t tail = (radius << 32) / max(4ul * one / 3ul - u, 1ul);
-    uint size = rootOf64(uint64_t(int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z)));
+    uint size = rootOf64(uint64_t(squaredLength(d)));
     int64_t scale = int64_t(core ? radius : tail);
     int64_t divisor = int64_t(core ? 32768u : max(size, 1u));
     p = impact.xyz + ivec3(int64_t(d.x) * scale / divisor, int64_t(d.y) * scale / divisor, int64_t(d.z) * scale / divisor);

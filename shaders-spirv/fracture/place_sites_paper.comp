@@ -55,7 +55,7 @@ int chosen(uint first, bool favors) {
     for (uint k = 0u; k < CANDIDATES; k++) {
         ivec4 p = candidates[first + k];
         ivec3 d = p.xyz - impact.xyz;
-        int64_t square = int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z);
+        int64_t square = squaredLength(d);
         bool takes = p.w != 0 && (best < 0 || (favors && isNegative(square - nearest)));
         best = takes ? int(k) : best;
         nearest = takes ? square : nearest;

@@ -17,11 +17,6 @@ layout(push_constant) uniform Push {
 #include "lib/place.glsl"
 #include "lib/quotient.glsl"
 
-Plane bisector(ivec3 q, ivec3 s) {
-    ivec3 d = s - q;
-    return Plane(d, 0u, int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z));
-}
-
 float toModel(int64_t x) {
     int64_t centered = x - (int64_t(1) << 47);
     precise float p = (float(int(centered >> 24)) + float(uint(centered) & 0xffffffu) * (1.0 / 16777216.0)) * step_size;
@@ -33,7 +28,7 @@ void main() {
     if (v >= counts[COUNT_VORONOI_VERTICES] || counts[STATUS_FAILED] != 0u) return;
     uvec4 s = vertex_sites[v];
     ivec3 q = sites[s.x].xyz;
-    Corner t = cornerOf(bisector(q, sites[s.y].xyz), bisector(q, sites[s.z].xyz), bisector(q, sites[s.w].xyz));
+    Corner t = cornerOf(bisectorOf(sites[s.y].xyz - q, s.y), bisectorOf(sites[s.z].xyz - q, s.z), bisectorOf(sites[s.w].xyz - q, s.w));
     bool turned = wideSign(t.volume) < 0;
     Wide128 den = wideDouble(turned ? wideNegate(t.volume) : t.volume);
     int64_t x[3];

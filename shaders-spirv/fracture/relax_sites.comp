@@ -35,15 +35,8 @@ ivec3 corner[RAW_CORNERS]; // from the site
 ivec3 site;
 
 Plane planeOf(uint id) {
-    bool wall = id >= BOX_BASE;
-    ivec3 d = wall ? ivec3(0) : sites[wall ? 0u : id].xyz - site;
-    if (wall) {
-        uint axis = (id - BOX_BASE) >> 1;
-        bool upper = ((id - BOX_BASE) & 1u) != 0u;
-        d[axis] = upper ? 1 : -1;
-        return Plane(d, id, int64_t(2 * (upper ? box_high[axis] - site[axis] : site[axis] - box_low[axis])));
-    }
-    return Plane(d, id, int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z));
+    if (id >= BOX_BASE) return wallOf(id - BOX_BASE, site, box_low.xyz, box_high.xyz);
+    return bisectorOf(sites[id].xyz - site, id);
 }
 
 // Of the perpendicular from the site.

@@ -32,7 +32,7 @@ void main() {
     uint node = level == 0u ? root.y : childAt(before, parent);
     uint initial = level == 0u ? root.x : tree[node].x;
     ivec3 here = bin_sites[p].xyz, to_initial = here - bin_sites[initial].xyz, to_inserted = here - bin_sites[node].xyz;
-    uint side = isNegative(squareOf(to_inserted) - squareOf(to_initial)) ? 1u : 0u;
+    uint side = isNegative(squaredLength(to_inserted) - squaredLength(to_initial)) ? 1u : 0u;
     path[p] = 2u * node + side;
     atomicMax(tree[node].w, radiusBits(to_initial));
     atomicMax(bids[2u * node + side], NO_INDEX - mixed(p));

@@ -2,6 +2,7 @@
 // weights enter linearly, and the coefficient of l's weight is the slope of D_j, which is not 0 where a crossing exists.
 int edgeSign(uint i, uint j, uint l, int64_t ja, int64_t jb, int64_t la, int64_t lb) {
     int slope = signOf(ja - jb);
+    if (!kExact) return realSign(real(ja) * real(lb) - real(jb) * real(la)) * slope;
     int sign = wideSign(wideMinor(ja, jb, la, lb));
     int64_t sj = jb - ja, sl = lb - la;
     uint lowest = NO_INDEX;

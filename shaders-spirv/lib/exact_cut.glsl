@@ -19,6 +19,18 @@ struct Corner {
     Wide128 volume;
 };
 
+// Of the site that is d away.
+Plane bisectorOf(ivec3 d, uint id) { return Plane(d, id, squaredLength(d)); }
+
+// Wall k of the box, which stands in the order of their ids.
+Plane wallOf(uint k, ivec3 site, ivec3 low, ivec3 high) {
+    uint axis = k >> 1;
+    bool upper = (k & 1u) != 0u;
+    ivec3 d = ivec3(0);
+    d[axis] = upper ? 1 : -1;
+    return Plane(d, BOX_BASE + k, int64_t(2 * (upper ? high[axis] - site[axis] : site[axis] - low[axis])));
+}
+
 int64_t crossTerm(int ax, int ay, int bx, int by) { return int64_t(ax) * int64_t(by) - int64_t(ay) * int64_t(bx); }
 
 Wide128 volumeOf(ivec3 a, ivec3 b, ivec3 c) {

@@ -1,6 +1,9 @@
 // A cell while the exact kernel cuts it: planes, and corners as triples of planes in the order in which their normals make a
 // positive volume. In shared memory, or for the larger kernels in a buffer, a store a workgroup.
 // Slots of corners that are gone are taken again before new ones are.
+#include "lib/filter_bounds.glsl"
+#include "lib/rounded_cut.glsl"
+
 #ifdef GLOBAL_STORE
 struct CellStore {
     ivec4 plane_d[PLANES];
@@ -34,9 +37,6 @@ shared uint corner_store[16 * CORNERS]; // moment and volume
 #endif
 
 #define GONE 0x80000000u
-
-// Places are quotients of exact integers: a few roundings each, then three products and sums in a test. Unit roundoff 2^-23.
-const float kPlaceError = 16.0 / 8388608.0;
 
 void sync() {
 #ifdef GLOBAL_STORE
@@ -76,12 +76,29 @@ Plane planeAt(uint p) {
     return Plane(d.xyz, uint(d.w), int64_t(uint64_t(r.x) | (uint64_t(r.y) << 32)));
 }
 
-void setPlane(uint p, ivec3 d, uint id, int64_t r) {
-    plane_d[p] = ivec4(d, int(id));
-    plane_r[p] = uvec2(uint(uint64_t(r)), uint(uint64_t(r) >> 32));
+void setPlane(uint p, Plane plane) {
+    plane_d[p] = ivec4(plane.d, int(plane.id));
+    plane_r[p] = uvec2(uint(uint64_t(plane.r)), uint(uint64_t(plane.r) >> 32));
+}
+
+RoundedPlane roundedPlaneAt(uint p) {
+    Plane plane = planeAt(p);
+    if (plane.id < BOX_BASE) return roundedBisector(real3(plane.d));
+    return RoundedPlane(real3(plane.d), real(plane.r) * kGridUnit);
+}
+
+void makeRoundedCorner(uint t, uint p, uint q, uint r) {
+    RoundedPlane a = roundedPlaneAt(p), b = roundedPlaneAt(q), c = roundedPlaneAt(r);
+    vec3 w = vec3(roundedMoment(a, b, c) / (roundedVolume(a, b, c) * kGridUnit));
+    corner_planes[t] = uvec2(p | (q << 16), r);
+    corner_place[t] = vec4(w, kPlaceError * sumOfSizes(w));
 }
 
 void makeCorner(uint t, uint a, uint b, uint c) {
+    if (!kExact) {
+        makeRoundedCorner(t, a, b, c);
+        return;
+    }
     Corner corner = cornerOf(planeAt(a), planeAt(b), planeAt(c));
     corner_planes[t] = uvec2(a | (b << 16), c);
     saveWide(t, 0u, corner.moment[0]);
@@ -89,5 +106,5 @@ void makeCorner(uint t, uint a, uint b, uint c) {
     saveWide(t, 8u, corner.moment[2]);
     saveWide(t, 12u, corner.volume);
     vec3 w = placeOf(corner);
-    corner_place[t] = vec4(w, kPlaceError * (abs(w.x) + abs(w.y) + abs(w.z)));
+    corner_place[t] = vec4(w, kPlaceError * sumOfSizes(w));
 }

@@ -1,24 +1,22 @@
 // A Voronoi cell while one lane cuts it in fp32: planes, corners as triples of planes, and a list of candidates.
 //
 // Walls of the box are mirrored sites, so that every plane is a bisector d.w <= d.d, with d the way to the other site (exact
-// in fp32) and w = 2 (v - site). Each corner keeps w and a bound of its error; a test that does not clear the bounds
-// (roundoff 2^-23 an operation, since Vulkan fixes no rounding mode; contraction only helps) is put off until the other cuts
-// are made, and where it is still open then the exact kernel goes on with the cell.
+// in fp32) and w = 2 (v - site). Each corner keeps w and a bound of its error; a test that does not clear the bounds is put off
+// until the other cuts are made, and where it is still open then the exact kernel goes on with the cell.
 //
 // An `if` is no saving where lanes run in step: the search for a bisector that cuts is a loop of its own, cutting another.
 // Looks at all corners are unrolled: with fixed places an array is as cheap as registers, with computed ones ten times dearer.
 //
 // Wants bin_sites, raw, cell_raw and the push constants box_low and box_high declared.
+#include "lib/filter_bounds.glsl"
+#include "lib/rounded_cut.glsl"
+
 #define PLANES RAW_PLANES
 #define CORNERS 52
 #define LIST 64
 #define ALL_CORNERS(k) [[unroll]] for (uint k = 0u; k < CORNERS; k++)
 
-const float kRoundoff = 1.0 / 8388608.0;
-const float kCornerError = 13.0 * kRoundoff; // one is for walls across the whole grid, which fp32 may round
-const float kTestError = 8.0 * kRoundoff;
 const uint kNoKey = 0xffffffffu;
-const float kMaxRelativeError = 0.2; // beyond, a corner says nothing
 
 const uint kSearching = 1u, kPutOff = 2u, kFinished = 3u;
 
@@ -58,8 +56,6 @@ void setCorner(uint slot, vec3 w, float error) {
     corner_z[slot] = w.z;
     corner_error[slot] = error;
 }
-
-float sumOfSizes(vec3 w) { return abs(w.x) + abs(w.y) + abs(w.z); }
 
 // The greatest of several floats and 0 is the greatest of their bits as integers, which is an instruction instead of three.
 
@@ -127,7 +123,7 @@ bool mayCut(vec3 e) { return furthestAlong(e) >= dot(e, e) * (1.0 - kTestError);
 
 // The corners that e removes for certain, and whether it may remove others.
 struct Look {
-    uint gone_low, gone_high;
+    uint gone_low, gone_high, doubt_low, doubt_high; // who is in doubt may be gone or not
     bool unsure;
 };
 
@@ -135,15 +131,32 @@ Look lookOver(vec3 e) {
     uint gone_low = 0u, gone_high = 0u, doubt_low = 0u, doubt_high = 0u;
     float size = length(e), square = dot(e, e), slack = square * kTestError;
     ALL_CORNERS(k) {
-        float beyond = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z - square, error = size * corner_error[k] + slack;
-        uint bit = 1u << (k & 31u), gone = beyond > error ? bit : 0u, doubt = beyond >= -error ? bit : 0u;
+        float beyond = corner_x[k] * e.x + corner_y[k] * e.y + corner_z[k] * e.z - square, error = kFast ? 0.0 : size * corner_error[k] + slack;
+        uint bit = 1u << (k & 31u), gone = beyond > error ? bit : 0u, doubt = kFast ? gone : (beyond >= -error ? bit : 0u);
         if (k < 32u) gone_low |= gone;
         else gone_high |= gone;
         if (k < 32u) doubt_low |= doubt;
         else doubt_high |= doubt;
     }
-    return Look(gone_low, gone_high, gone_low != doubt_low || gone_high != doubt_high);
+    bool unsure = gone_low != doubt_low || gone_high != doubt_high;
+    return Look(gone_low, gone_high, doubt_low & ~gone_low, doubt_high & ~gone_high, unsure);
 }
+
+#ifdef DOUBLES
+// Decides in fp64 what is in doubt in fp32.
+void settle(inout Look look, vec3 e) {
+    RoundedPlane cut = roundedBisector(real3(e));
+    for (uint k = 0u; k < CORNERS && (look.doubt_low | look.doubt_high) != 0u; k++) {
+        uint t = takeLowest(look.doubt_low, look.doubt_high), planes = triple[t], bit = 1u << (t & 31u);
+        RoundedPlane a = roundedBisector(real3(planeAt(planes & 255u))), b = roundedBisector(real3(planeAt((planes >> 8) & 255u)));
+        bool gone = roundedCuts(a, b, roundedBisector(real3(planeAt(planes >> 16))), cut);
+        look.gone_low |= gone && t < 32u ? bit : 0u;
+        look.gone_high |= gone && t >= 32u ? bit : 0u;
+        budget -= min(budget, 1u);
+    }
+    look.unsure = false;
+}
+#endif
 
 uint nearestListed() {
     uint even = kNoKey, odd = kNoKey;
@@ -212,7 +225,7 @@ void closeRim(bool cuts, uint start, vec3 e) {
         float there_size = length(there), inverse = 1.0 / dot(e, across);
         vec3 w = (dot(there, there) * past - dot(here, here) * ahead + dot(e, e) * across) * inverse;
         float size = length(w);
-        float error = kCornerError * here_size * there_size * e_size * abs(inverse) * (here_size + there_size + e_size + size) +
+        float error = kFast ? 0.0 : kCornerError * here_size * there_size * e_size * abs(inverse) * (here_size + there_size + e_size + size) +
                       kTestError * sumOfSizes(w);
         status = sum != 0 && error < kMaxRelativeError * size ? status : CELL_UNDECIDED;
         uint slot = takeFree();
@@ -291,6 +304,9 @@ void cutByListed(uint lane, ivec3 site) {
             budget -= min(budget, 1u);
         }
         Look look = lookOver(e);
+#ifdef DOUBLES
+        if (found) settle(look, e);
+#endif
         if (found && look.unsure) putOff(place);
         bool cuts = found && !look.unsure;
         cutBy(cuts ? look.gone_low : 0u, cuts ? look.gone_high : 0u, e, uint(bin_sites[place].w));
@@ -300,26 +316,4 @@ void cutByListed(uint lane, ivec3 site) {
     for (uint k = 0u; k < count; k++) key[k] = kNoKey;
     budget -= min(budget, count + 1u);
     count = 0u;
-}
-
-void writeCell(uint self) {
-    // Straight through for all lanes: a cell that is not done writes no planes and no corners.
-    uint base = self * RAW_WORDS, live = 0u;
-    bool ok = status == CELL_OK;
-    uint planes = ok ? plane_count : 0u;
-    uint low = ok ? ~free_low : 0u, high = ok ? ~free_high & ((1u << (CORNERS - 32u)) - 1u) : 0u;
-    for (uint k = 0u; k < CORNERS && (low | high) != 0u; k++) {
-        uint t = triple[takeLowest(low, high)];
-        raw[base + 2u + PLANES + live] = t;
-        rim[t & 255u] = 1;
-        rim[(t >> 8) & 255u] = 1;
-        rim[t >> 16] = 1;
-        live++;
-    }
-    for (uint k = 0u; k < planes; k++) raw[base + 2u + k] = rim[k] != 0 ? plane_id[k] : NO_INDEX;
-    uint open = ok ? open_count : 0u;
-    for (uint k = 0u; k < MOST_OPEN && k < open; k++) raw[base + RAW_OPEN + k] = uint(bin_sites[put_off[k]].w);
-    cell_raw[self] = uvec2(base, 0u);
-    raw[base] = open != 0u ? CELL_OPEN | (open << 8) : status;
-    raw[base + 1u] = planes | (live << 16);
 }

@@ -17,8 +17,6 @@ uint radiusBits(ivec3 d) {
     return floatBitsToUint(square * (1.0 + 1.0 / 1048576.0));
 }
 
-int64_t squareOf(ivec3 d) { return int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z); }
-
 // `at`: the node and the side of it that a site has come to.
 uint childAt(uint at, uvec4 node) { return ((at & 1u) != 0u ? node.z : node.y) - 1u; }
 uint initialAt(uint at, uvec4 node) { return (at & 1u) != 0u ? at >> 1 : node.x; }

@@ -27,7 +27,16 @@ void weighTie(inout uint lowest, inout int verdict, uint id, int coefficient) {
     }
 }
 
+// A row in floating point, in units that keep products of three within the range of fp32.
+real3 roundedRow(Row j) { return real3(real(j.v[0]), real(j.v[1]), real(j.v[2])) * real(1.0 / 33554432.0); }
+
+int roundedTriangleSign(Row j, Row k, Row l) {
+    real3 m = cross(roundedRow(j), roundedRow(k));
+    return realSign(dot(m, roundedRow(l))) * realSign(m.x + m.y + m.z);
+}
+
 int triangleSign(uint i, Row j, Row k, Row l) {
+    if (!kExact) return roundedTriangleSign(j, k, l);
     Minors m = minorsOf(j, k);
     Wide128 sum = sumOf(m);
     Wide192 det = wideAdd(wideAdd(wideMul192(m.m[0], wideFrom(l.v[0])), wideMul192(m.m[1], wideFrom(l.v[1]))),

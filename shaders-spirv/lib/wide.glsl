@@ -11,6 +11,8 @@ bool isNegative(int64_t a) { return int(uint(uint64_t(a) >> 32)) < 0; }
 bool isZero(int64_t a) { return (uint(uint64_t(a) >> 32) | uint(uint64_t(a))) == 0u; }
 int signOf(int64_t a) { return isNegative(a) ? -1 : (isZero(a) ? 0 : 1); }
 
+int64_t squaredLength(ivec3 d) { return int64_t(d.x) * int64_t(d.x) + int64_t(d.y) * int64_t(d.y) + int64_t(d.z) * int64_t(d.z); }
+
 struct Wide128 {
     uint64_t lo;
     int64_t hi;

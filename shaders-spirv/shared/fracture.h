@@ -13,6 +13,11 @@
 #define FLAT_SIZE_ID 100
 #define SCAN_BLOCK 1024
 
+// Specialization constant of the kernels that decide signs, and its values. Kernels that are named *_double know no other.
+#define PRECISION_ID 1
+#define PRECISION_EXACT 0
+#define PRECISION_FAST 1
+
 // Indices into the buffer of counts; the dispatch arguments of a count have the same index.
 #define COUNT_SITES 0
 #define COUNT_NEIGHBORS 1
@@ -77,6 +82,8 @@
 #define STATUS_TOO_LONG (2 * COUNT_TOTAL + 17) /* edges and triangles that meet more cells than one lane can walk */
 #define STATUS_SIDES (2 * COUNT_TOTAL + 18) /* of the polygon that had too many */
 #define STATUS_JOINED (2 * COUNT_TOTAL + 19) /* films that have found a host */
+#define STATUS_BAD_DIAGRAM (2 * COUNT_TOTAL + 20)  /* Voronoi edges without a beginning: signs were rounded */
+#define STATUS_OPEN_OUTLINES (2 * COUNT_TOTAL + 21) /* cut faces whose outline does not close: signs were rounded */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u

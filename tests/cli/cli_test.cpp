@@ -152,12 +152,35 @@ TEST_F(Cli, BadUsageIsRefused) {
     expectRefused({"shatter", "builtin:cube", "--explode", "nan"}, 2);
     for (const char* size : {"0", "4", "48", "512", "-64", "many"})
         expectRefused({"shatter", "builtin:cube", "--group-size", size}, 2);
+    expectRefused({"shatter", "builtin:cube", "--precision", "half"}, 2);
+    expectRefused({"shatter", "builtin:cube", "--cells", "corners"}, 2);
+    for (const char* search : {"linear", "sphere_tree"})
+        expectRefused({"shatter", "builtin:cube", "--cells", "edges", "--search", search}, 2);
     expectRefused({"shatter", "builtin:nothing"}, 2);
     expectRefused({"shatter", path("missing.obj")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);
     std::ofstream(path("bad.txt")) << "0 0 0\n1 2\n";
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("bad.txt")}, 2);
     expectRefused({"shatter", "builtin:cube", "--device", "no such device"}, 4);
+}
+
+TEST_F(Cli, LessThanExactPrecisionWorksOrSaysWhatDoes) {
+    std::ofstream lattice(path("lattice.txt"));
+    for (int k = 0; k < 64; ++k)
+        lattice << k % 4 << ' ' << k / 4 % 4 << ' ' << k / 16 << '\n';
+    lattice.close();
+    for (const char* precision : {"double", "fast"}) {
+        SCOPED_TRACE(precision);
+        const Outcome plain = runProgram("brittle", {"shatter", "builtin:bumpy:3", "-o", path("plain.glb"), "--sites", "40",
+                                                     "--precision", precision, "--verify"});
+        EXPECT_EQ(plain.exit_code, 0) << plain.err;
+        const Outcome tied = runProgram("brittle", {"shatter", "builtin:cube", "-o", path("tied.glb"), "--sites-file",
+                                                    path("lattice.txt"), "--precision", precision});
+        EXPECT_EQ(std::filesystem::exists(path("tied.glb")), tied.exit_code == 0);
+        if (tied.exit_code == 0) continue;
+        EXPECT_TRUE(tied.exit_code == 1 || tied.exit_code == 3) << tied.exit_code << tied.err;
+        EXPECT_NE(tied.err.find("exact"), std::string::npos) << tied.err;
+    }
 }
 
 TEST_F(Cli, OddSitesFilesAreRefused) {

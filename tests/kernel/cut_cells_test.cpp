@@ -1,4 +1,5 @@
-// cut_cells and cut_cells_exact against the reference diagram: the same neighbors and the same vertices, cell by cell.
+// cut_cells, cut_cells_edges and cut_cells_exact against the reference diagram: the same neighbors and the same vertices, cell
+// by cell.
 #include "tests/hard/hard_sites.h"
 #include "tests/kernel/device_cells.h"
 
@@ -6,9 +7,8 @@ namespace kernel_test {
 namespace {
 
 // Names the first few cells that differ, and in what.
-void expectSameDiagram(const reference::SiteSet& set, const DeviceCells& device) {
+void expectSameDiagram(const std::vector<reference::VoronoiCell>& expected, const DeviceCells& device) {
     EXPECT_EQ(device.unfinished, 0u);
-    const std::vector<reference::VoronoiCell> expected = reference::cutAllCells(set);
     ASSERT_EQ(device.cells.size(), expected.size());
     uint32_t different = 0;
     for (size_t k = 0; k < expected.size(); ++k) {
@@ -28,13 +28,20 @@ void expectSameDiagram(const reference::SiteSet& set, const DeviceCells& device)
     EXPECT_EQ(audit.broken_cells, 0u);
 }
 
+void expectSameDiagram(const reference::SiteSet& set, const DeviceCells& device) {
+    expectSameDiagram(reference::cutAllCells(set), device);
+}
+
 class CutCellsHard : public testing::TestWithParam<size_t> {};
 
 TEST_P(CutCellsHard, GivesTheReferenceDiagram) {
     const hard::HardSites hard = hard::hardSites()[GetParam()];
     SCOPED_TRACE(hard.name);
     const reference::SiteSet set = hard::snapToGrid(hard).set;
-    expectSameDiagram(set, cutOnDevice(set));
+    const std::vector<reference::VoronoiCell> expected = reference::cutAllCells(set);
+    expectSameDiagram(expected, cutOnDevice(set));
+    SCOPED_TRACE("a lane an edge");
+    expectSameDiagram(expected, cutOnDevice(set, Path::FilteredEdges));
 }
 
 INSTANTIATE_TEST_SUITE_P(Small, CutCellsHard, testing::Values(7, 16, 24, 25));
@@ -66,7 +73,8 @@ TEST_P(CutCellsBySearch, FindsTheSameCells) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Quick, CutCellsBySearch, testing::Values(Path::FilteredLinear, Path::FilteredTree));
+INSTANTIATE_TEST_SUITE_P(Quick, CutCellsBySearch,
+                         testing::Values(Path::FilteredLinear, Path::FilteredTree, Path::FilteredEdges));
 
 TEST(CutCellsSearch, FindsTheSameCellsAcrossWorkgroups) {
     const reference::SiteSet set = hard::snapToGrid(hard::uniformSites(300, 5)).set;
@@ -79,6 +87,7 @@ TEST(CutCells, OfUniformSitesAreMostlyDecidedByTheFilter) {
     const DeviceCells device = cutOnDevice(set);
     expectSameDiagram(set, device);
     EXPECT_LT(device.undecided, 500u);
+    EXPECT_LT(cutOnDevice(set, Path::FilteredEdges).undecided, 500u);
 }
 
 TEST(CutCells, OfCrowdsAndLattices) {
@@ -102,6 +111,7 @@ TEST(CutCells, WithManyFacesAreDoneAgainWithMoreRoom) {
     const reference::SiteSet set = hard::snapToGrid(hard::sphereAroundCenter(150, .3)).set;
     const DeviceCells device = cutOnDevice(set);
     expectSameDiagram(set, device);
+    expectSameDiagram(set, cutOnDevice(set, Path::FilteredEdges));
     EXPECT_EQ(device.redone, 1u);
     EXPECT_EQ(device.cells[0].neighbors.size(), 150u);
 }

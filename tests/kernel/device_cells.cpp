@@ -1,5 +1,6 @@
 #include "tests/kernel/device_cells.h"
 
+#include "modules/brittle/fracture/deciding_kernels.h"
 #include "tests/kernel/device_tree.h"
 
 #include <algorithm>
@@ -48,6 +49,11 @@ struct CutPush {
 struct FilterPush {
     Int4 bins, box_low, box_high;
     uint32_t slots, turn_budget;
+};
+
+struct EdgesPush {
+    Int4 bins, box_low, box_high;
+    uint32_t slots;
 };
 
 // Queues and raw cells of the classes lie one after the other.
@@ -146,7 +152,7 @@ BinnedSites binSites(const SiteSet& set) {
     return binned;
 }
 
-RawCells cutRaw(const SiteSet& set, Path path) {
+RawCells cutRaw(const SiteSet& set, Path path, brittle::Precision precision) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
     const BinnedSites binned = binSites(set);
     const WordCounts words = wordCounts(n);
@@ -156,19 +162,27 @@ RawCells cutRaw(const SiteSet& set, Path path) {
     const engine::Buffer sites = bufferOf(binned.sites), bin_start = bufferOf(binned.bin_start);
     const engine::Buffer bin_sites = bufferOf(binned.bin_sites), queue = blankBuffer<uint32_t>(words.queue);
     const engine::Buffer store = blankBuffer<uint32_t>(words.store);
+    const auto cutter = [&](const char* name) -> const engine::Kernel& {
+        const auto found = brittle::kernelFor(kernels(), name, 0, precision);
+        ENGINE_ASSERT(found.has_value());
+        return **found;
+    };
     std::optional<DeviceTree> tree;
     if (path == Path::FilteredTree) tree = growTree(binned.bin_sites, 12);
     const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
         const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
-        if (path == Path::FilteredLinear)
-            commands.dispatch(kernel("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at});
+        if (path == Path::FilteredEdges)
+            commands.dispatchGroups(cutter("cut_cells_edges"), n, EdgesPush{push.bins, push.box_low, push.box_high, n},
+                                    {counts.words, sites, bin_start, bin_sites, result.raw, result.at});
+        else if (path == Path::FilteredLinear)
+            commands.dispatch(cutter("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at});
         else if (tree)
             commands.dispatch(
-                kernel("cut_cells_tree"), n, push,
+                cutter("cut_cells_tree"), n, push,
                 {counts.words, bin_sites, result.raw, result.at, tree->nodes, tree->leaf_start, tree->leaf_sites});
         else
-            commands.dispatch(kernel("cut_cells"), n, push, {counts.words, bin_sites, result.raw, result.at, bin_start});
+            commands.dispatch(cutter("cut_cells"), n, push, {counts.words, bin_sites, result.raw, result.at, bin_start});
         commands.dispatch(kernel("queue_cells"), n, n, {counts.words, result.raw, queue});
     };
     const auto exact = [&](engine::Commands& commands, uint32_t k, const SizeClass& size) {
@@ -177,9 +191,9 @@ RawCells cutRaw(const SiteSet& set, Path path) {
                                                                    queue,        result.raw, result.at, store};
         counts.publish(commands, COUNT_EXACT_SMALL + k, size.room);
         if (push.cell_count != NO_INDEX)
-            commands.dispatchGroups(kernel(size.kernel), n, push, buffers);
+            commands.dispatchGroups(cutter(size.kernel), n, push, buffers);
         else
-            commands.dispatchIndirect(kernel(size.kernel), counts.groupsOf(COUNT_EXACT_SMALL + k), push, buffers);
+            commands.dispatchIndirect(cutter(size.kernel), counts.groupsOf(COUNT_EXACT_SMALL + k), push, buffers);
     };
     onDevice([&](engine::Commands& commands) {
         if (path != Path::Exact) filter(commands);
@@ -192,10 +206,10 @@ RawCells cutRaw(const SiteSet& set, Path path) {
     return result;
 }
 
-DeviceCells cutOnDevice(const SiteSet& set, Path path) {
+DeviceCells cutOnDevice(const SiteSet& set, Path path, brittle::Precision precision) {
     const uint32_t n = static_cast<uint32_t>(set.sites.size());
     const auto classes = sizeClasses(n);
-    const RawCells raw = cutRaw(set, path);
+    const RawCells raw = cutRaw(set, path, precision);
     DeviceCells result;
     result.undecided = raw.undecided;
     result.redone = raw.redone;

@@ -1,6 +1,7 @@
 // Runs the cell kernels on a set of sites and reads their cells back in the oracle's terms.
 #pragma once
 
+#include "modules/brittle/fracture/precision.h"
 #include "tests/kernel/lab.h"
 #include "tests/reference/voronoi.h"
 
@@ -20,7 +21,8 @@ enum class Path {
     Filtered,       // as in a fracture: fp32 first, what is not certain again in integers
     FilteredLinear, // the same, with neighbors looked for otherwise
     FilteredTree,
-    Exact // in integers from the start
+    FilteredEdges, // the same with a workgroup a cell and a lane an edge
+    Exact          // in integers from the start
 };
 
 struct DeviceCells {
@@ -34,8 +36,10 @@ struct RawCells {
     engine::Buffer raw, at; // words; where each cell begins among them, and its size class
     uint32_t undecided = 0, redone = 0;
 };
-RawCells cutRaw(const reference::SiteSet& set, Path path = Path::Filtered);
+RawCells cutRaw(const reference::SiteSet& set, Path path = Path::Filtered,
+                brittle::Precision precision = brittle::Precision::Exact);
 
-DeviceCells cutOnDevice(const reference::SiteSet& set, Path path = Path::Filtered);
+DeviceCells cutOnDevice(const reference::SiteSet& set, Path path = Path::Filtered,
+                        brittle::Precision precision = brittle::Precision::Exact);
 
 } // namespace kernel_test

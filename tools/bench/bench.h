@@ -21,6 +21,8 @@ struct BenchOptions {
     uint32_t sphere_level = 5;                                         // 20 * 4^level triangles
     std::vector<uint32_t> growth_levels = {3, 4, 5, 6, 7};             // of the sphere, for time against triangles
     uint32_t growth_sites = 100;
+    std::vector<uint32_t> variant_cell_counts = {100, 1'000, 10'000}; // sites in a cube, cut in every way there is
+    std::vector<uint32_t> variant_shatter_counts = {100};             // and in the bumpy sphere
     uint32_t startup_rounds = 3;
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
@@ -57,6 +59,15 @@ struct CapsRow {
     double exact_caps_ms = 0, convex_caps_ms = 0; // of that the stage cap_faces, on the device
 };
 
+// A search, a mapping of cells or a precision, next to the default.
+struct VariantRow {
+    std::string name;
+    uint32_t sites = 0;
+    bool only_cells = false;
+    double ms = 0;         // device time: of binning and cutting cells, or of the whole shatter
+    double default_ms = 0; // of the default in the same run
+};
+
 struct StartupRow {
     double cold_ms = 0, warm_ms = 0; // a process that breaks 1280 triangles into 10 cells, without and with the driver's cache
 };
@@ -72,6 +83,8 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
 engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, const BenchOptions& options,
                                                     const Progress& progress);
 engine::Result<std::vector<CapsRow>> benchCaps(engine::Device& device, const BenchOptions& options, const Progress& progress);
+engine::Result<std::vector<VariantRow>> benchVariants(engine::Device& device, const BenchOptions& options,
+                                                      const Progress& progress);
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
     bench::BenchOptions bench;
     std::string device, output;
-    bool cells_only = false, shatter_only = false;
+    bool cells_only = false, shatter_only = false, variants_only = false;
 };
 
 // Below 1: ours is faster.
@@ -63,6 +63,14 @@ Json toJson(const bench::CapsRow& caps) {
             {"convex_cap_faces_ms", caps.convex_caps_ms}};
 }
 
+Json toJson(const bench::VariantRow& row) {
+    return {{"variant", row.name},
+            {"what", row.only_cells ? "cells" : "shatter"},
+            {"sites", row.sites},
+            {"ms", row.ms},
+            {"times_default", row.default_ms > 0 ? row.ms / row.default_ms : 0}};
+}
+
 template <class Row>
 Json toJson(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -81,6 +89,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!caps) return caps.error();
     const auto growth = bench::benchGrowth(device, options, progress);
     if (!growth) return growth.error();
+    const auto variants = bench::benchVariants(device, options, progress);
+    if (!variants) return variants.error();
     Json report = {{"device", device.name()},
                    {"driver", device.driver()},
                    {"group_size", options.group_size == 0 ? GROUP_SIZE : options.group_size},
@@ -89,7 +99,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
                    {"cells", toJson(*cells)},
                    {"shatter", toJson(*shatters)},
                    {"caps", toJson(*caps)},
-                   {"growth", toJson(*growth)}};
+                   {"growth", toJson(*growth)},
+                   {"variants", toJson(*variants)}};
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);
     if (!startup) return startup.error();
@@ -107,9 +118,13 @@ int write(const Json& report, const std::string& path) {
 }
 
 int runBench(Options options) {
-    if (options.cells_only) options.bench.shatter_counts.clear();
-    if (options.shatter_only) options.bench.cell_counts.clear();
+    if (options.cells_only || options.variants_only) options.bench.shatter_counts.clear();
+    if (options.shatter_only || options.variants_only) options.bench.cell_counts.clear();
     if (options.cells_only || options.shatter_only) {
+        options.bench.variant_cell_counts.clear();
+        options.bench.variant_shatter_counts.clear();
+    }
+    if (options.cells_only || options.shatter_only || options.variants_only) {
         options.bench.growth_levels.clear();
         options.bench.startup_rounds = 0;
     }
@@ -138,7 +153,14 @@ void addBench(CLI::App& app, int& exit_code) {
     command->add_option("--shatter-counts", options->bench.shatter_counts, "numbers of sites in the bumpy sphere")
         ->capture_default_str();
     CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");
-    command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
+    CLI::Option* shatters = command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
+    command
+        ->add_flag("--variants", options->variants_only, "only searches, mappings of cells and precisions, against the default")
+        ->excludes(cells)
+        ->excludes(shatters);
+    command->add_option("--variant-counts", options->bench.variant_cell_counts, "numbers of sites in a cube, for all variants")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, MOST_LINEAR_SITES));
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command->add_option("--group-size", options->bench.group_size, "lanes of a workgroup, a power of two from 8 to 256")

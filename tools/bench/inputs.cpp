@@ -85,4 +85,13 @@ std::vector<Point> uniformSites(uint32_t count, uint64_t seed) {
     return sites;
 }
 
+Model unitCube() {
+    Model cube;
+    for (uint32_t k = 0; k < 8; ++k)
+        cube.vertices.push_back({double(k & 1), double(k >> 1 & 1), double(k >> 2)});
+    cube.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return cube;
+}
+
 } // namespace bench

@@ -20,6 +20,8 @@ Model smoothSphere(uint32_t level);
 // A closed ball with bumps and dents, not convex, within the unit box: 20 * 4^level triangles. The coordinates are floats.
 Model bumpySphere(uint32_t level);
 
+Model unitCube();
+
 // Uniform in the unit box.
 std::vector<Point> uniformSites(uint32_t count, uint64_t seed);
 

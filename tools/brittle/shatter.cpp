@@ -35,6 +35,7 @@ private:
     engine::Result<void> openDevice();
     engine::Result<void> breakModel();
     engine::Result<void> verify();
+    std::string advice() const;
     engine::Result<void> writeFragments();
     engine::Result<void> writePicture();
     engine::Result<void> commitOutputs();
@@ -141,6 +142,8 @@ engine::Result<void> Run::breakModel() {
     options.given_sites = given_sites_;
     options.search = options_.search;
     options.caps = options_.caps;
+    options.cells = options_.cells;
+    options.precision = options_.precision;
     options.pattern = options_.pattern;
     options.relax = options_.relax;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
@@ -156,16 +159,20 @@ engine::Result<void> Run::breakModel() {
     return {};
 }
 
+std::string Run::advice() const {
+    if (options_.precision != brittle::Precision::Exact) return "use --precision exact";
+    if (options_.caps == brittle::Caps::Convex) return "the model is not convex where it was cut: use --caps exact";
+    return "move the sites a little, and please report it";
+}
+
 // Always: a wrong result is no result. --verify says in words what was found.
 engine::Result<void> Run::verify() {
     const brittle::FractureResult& result = outcome_.result;
     outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
     const std::string violation = outcome_.contract.violation();
     if (violation.empty()) return {};
-    const char* advice = options_.caps == brittle::Caps::Convex
-                             ? "; nothing was written; the model is not convex where it was cut: use --caps exact"
-                             : "; nothing was written; move the sites a little, and please report it";
-    return aboutModel({engine::ErrorCode::Internal, "the fragments break their contract: " + violation + advice});
+    return aboutModel({engine::ErrorCode::Internal,
+                       "the fragments break their contract: " + violation + "; nothing was written; " + advice()});
 }
 
 engine::Result<void> Run::writeFragments() {

@@ -23,6 +23,8 @@ struct ShatterOptions {
     uint32_t relax = 0;                 // rounds of Lloyd's relaxation
     brittle::Search search = brittle::Search::Auto;
     brittle::Caps caps = brittle::Caps::Exact;
+    brittle::CellMapping cells = brittle::CellMapping::Auto;
+    brittle::Precision precision = brittle::Precision::Exact;
     double explode = 0;
     uint32_t sites = 100;
     uint64_t seed = 1;

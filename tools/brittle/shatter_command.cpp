@@ -97,6 +97,10 @@ const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Sear
                                                           {"linear", brittle::Search::Linear},
                                                           {"sphere_tree", brittle::Search::SphereTree},
                                                           {"grid", brittle::Search::Grid}};
+const std::map<std::string, brittle::CellMapping> kMappings = {
+    {"auto", brittle::CellMapping::Auto}, {"lanes", brittle::CellMapping::Lanes}, {"edges", brittle::CellMapping::Edges}};
+const std::map<std::string, brittle::Precision> kPrecisions = {
+    {"exact", brittle::Precision::Exact}, {"double", brittle::Precision::Double}, {"fast", brittle::Precision::Fast}};
 
 const std::map<std::string, brittle::Caps> kCaps = {{"exact", brittle::Caps::Exact}, {"convex", brittle::Caps::Convex}};
 
@@ -174,6 +178,17 @@ void addShatter(CLI::App& app, int& exit_code) {
     command
         ->add_option("--caps", options->caps, "how cut faces are made: exact, or convex, which is faster and for convex models")
         ->transform(CLI::CheckedTransformer(kCaps).description(""))
+        ->option_text("NAME [exact]");
+    command
+        ->add_option(
+            "--cells", options->cells,
+            "how cells are spread over the device: auto, lanes (a lane a cell) or edges (a lane an edge, as in the paper)")
+        ->transform(CLI::CheckedTransformer(kMappings).description(""))
+        ->option_text("NAME [auto]");
+    command
+        ->add_option("--precision", options->precision,
+                     "of the decisions: exact, double or fast; what is not exact may fail its check, and then writes nothing")
+        ->transform(CLI::CheckedTransformer(kPrecisions).description(""))
         ->option_text("NAME [exact]");
     command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,

@@ -44,6 +44,9 @@ public:
     engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                            const FractureOptions& options) override {
         auto start = Clock::now();
+        if (options.precision == Precision::Double && !device_.features().doubles)
+            return engine::Error{engine::ErrorCode::Device,
+                                 device_.name() + " has no 64-bit floats in shaders, which precision double needs; use exact"};
         auto prepared = prepare(mesh, options);
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
@@ -60,7 +63,7 @@ public:
             met_ = capacity.rare;
             if (!again) {
                 auto checked = checkStatus(outcome->status);
-                if (!checked) return checked.error();
+                if (!checked) return advised(checked.error(), options.precision);
                 outcome->result.setup_ms = millisecondsSince(start) - outcome->result.total_ms;
                 return std::move(outcome->result);
             }
@@ -88,10 +91,16 @@ private:
         uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
         return static_cast<uint32_t>(std::min<uint64_t>(fit, 1u << 28)) / 256 * 256;
     }
+    static engine::Error advised(engine::Error error, Precision precision) {
+        if (precision != Precision::Exact && error.code != engine::ErrorCode::BadInput)
+            error.message += "; at precision " + std::string(nameOf(precision)) + " signs may be wrong, use exact";
+        return error;
+    }
     static bool aboutImpact(const FractureOptions& options) {
         return options.given_sites.empty() && options.pattern == Pattern::Impact;
     }
     static Search searchOf(const FractureOptions& options, const EventGrid& grid) {
+        if (options.cells == CellMapping::Edges) return Search::Grid;
         return chosenSearch(options.search, aboutImpact(options) || grid.fullest_bin > kCrowdedBin);
     }
     static uint32_t siteCount(const FractureOptions& options) {
@@ -119,6 +128,10 @@ private:
             return engine::Error{engine::ErrorCode::Capacity, "linear search takes at most " +
                                                                   std::to_string(MOST_LINEAR_SITES) +
                                                                   " sites; search by grid or sphere_tree"};
+        if (options.cells == CellMapping::Edges && options.search != Search::Auto && options.search != Search::Grid)
+            return engine::Error{
+                engine::ErrorCode::BadInput,
+                "cells by edges find their neighbors by grid only; leave the search out or cut cells by lanes"};
         if (mesh.triangles.empty()) return engine::Error{engine::ErrorCode::BadInput, "the mesh has no triangles"};
         if (mesh.triangles.size() > kMostTriangles)
             return engine::Error{engine::ErrorCode::Capacity,
@@ -214,7 +227,7 @@ private:
         addSites(upload, p, sites, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();
-        Recorder recorder(commands, kernels_, b.counts, b.args);
+        Recorder recorder(commands, kernels_, b.counts, b.args, options.precision);
         recorder.clear({b.counts, b.args, b.placed, b.raw_sites});
         upload.copy(commands, *staging);
         const Search search = searchOf(options, p.grid);

@@ -6,8 +6,10 @@
 #include "engine/kernel.h"
 #include "engine/result.h"
 #include "modules/brittle/fracture/caps.h"
+#include "modules/brittle/fracture/cell_mapping.h"
 #include "modules/brittle/fracture/fragments.h"
 #include "modules/brittle/fracture/pattern.h"
+#include "modules/brittle/fracture/precision.h"
 #include "modules/brittle/fracture/search.h"
 #include "modules/brittle/mesh/mesh.h"
 
@@ -26,8 +28,10 @@ struct FractureOptions {
     uint32_t relax = 0; // rounds in which each site goes to the centroid of its cell (Lloyd 1982)
     Search search = Search::Auto;
     Caps caps = Caps::Exact;
-    bool only_cells = false;   // stop once the Voronoi cells are there: no fragments, for measuring
-    bool time_kernels = false; // timings name kernels, not stages
+    CellMapping cells = CellMapping::Auto;  // edges: by grid, other searches are refused
+    Precision precision = Precision::Exact; // less may break the contract of fragments; see verifyContract
+    bool only_cells = false;                // stop once the Voronoi cells are there: no fragments, for measuring
+    bool time_kernels = false;              // timings name kernels, not stages
 };
 
 struct FractureCounts {
@@ -54,7 +58,8 @@ public:
     // bit. Errors: BadInput (another group size).
     static engine::Result<std::unique_ptr<Fracture>> create(engine::Device& device, uint32_t group_size = 0);
     virtual ~Fracture() = default;
-    // Errors: BadInput (no sites, sites too far away), Capacity (names the pool and what it lacked), Device.
+    // Errors: BadInput (no sites, sites too far away), Capacity (names the pool and what it lacked), Device (also where it
+    // lacks doubles that were asked for), Internal (signs that contradict each other: only at less than exact precision).
     virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                                    const FractureOptions& options) = 0;
 };

@@ -132,6 +132,9 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
         return engine::Error{engine::ErrorCode::Capacity,
                              number(STATUS_TOO_LONG) +
                                  " edges or triangles of the model meet too many cells each; divide them, or use fewer sites"};
+    if (s[STATUS_BAD_DIAGRAM] != 0) return failed(number(STATUS_BAD_DIAGRAM) + " edges of cells do not close");
+    if (s[STATUS_OPEN_OUTLINES] != 0)
+        return failed(number(STATUS_OPEN_OUTLINES) + " cut faces have outlines that do not close");
     if (s[STATUS_BAD_CELLS] != 0)
         return engine::Error{engine::ErrorCode::Capacity,
                              number(STATUS_BAD_CELLS) + " cells have too many faces or neighbors to be cut; spread the sites"};

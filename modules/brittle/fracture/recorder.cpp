@@ -1,9 +1,11 @@
 #include "modules/brittle/fracture/recorder.h"
 
+#include "modules/brittle/fracture/deciding_kernels.h"
+
 namespace brittle {
 
 const engine::Kernel* Recorder::find(std::string_view name, uint32_t spec) {
-    auto kernel = kernels_.get(name, {&spec, spec != 0 ? size_t{1} : size_t{0}});
+    auto kernel = kernelFor(kernels_, name, spec, precision_);
     if (kernel) return *kernel;
     if (!error_) error_ = kernel.error();
     return nullptr;

@@ -4,6 +4,7 @@
 
 #include "engine/commands.h"
 #include "engine/kernel.h"
+#include "modules/brittle/fracture/precision.h"
 #include "shaders-spirv/shared/fracture.h"
 
 #include <array>
@@ -30,8 +31,9 @@ class Recorder {
 public:
     using Views = std::initializer_list<engine::BufferView>;
 
-    Recorder(engine::Commands& commands, engine::KernelLibrary& kernels, engine::BufferView counts, engine::BufferView args)
-        : commands_(commands), kernels_(kernels), counts_(counts), args_(args) {}
+    Recorder(engine::Commands& commands, engine::KernelLibrary& kernels, engine::BufferView counts, engine::BufferView args,
+             Precision precision = Precision::Exact)
+        : commands_(commands), kernels_(kernels), counts_(counts), args_(args), precision_(precision) {}
 
     template <class Push = engine::NoPush>
     void run(std::string_view name, Length length, const Push& push, Views buffers, uint32_t spec = 0) {
@@ -78,6 +80,7 @@ private:
     engine::KernelLibrary& kernels_;
     engine::BufferView counts_;
     engine::BufferView args_;
+    Precision precision_;
     std::optional<engine::Error> error_;
 };
 

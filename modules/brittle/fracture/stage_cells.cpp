@@ -1,4 +1,5 @@
-// Cells: cut from the box by integers alone, larger ones again with more room, then packed and linked into a diagram.
+// Cells: cut from the box in fp32, those in doubt again in integers, larger ones with more room, then packed and linked into a
+// diagram.
 #include "modules/brittle/fracture/event.h"
 
 namespace brittle {
@@ -12,6 +13,11 @@ struct CutPush {
 struct FastPush {
     Int4 bins, box_low, box_high;
     uint32_t slots, turn_budget;
+};
+
+struct EdgesPush {
+    Int4 bins, box_low, box_high;
+    uint32_t slots;
 };
 
 CutPush cutPush(const Event& e, uint32_t size_class) {
@@ -39,8 +45,15 @@ void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t 
         e.record.publish(COUNT_EXACT_MEDIUM + size_class, size_class == 0 ? e.capacity.exact_medium : e.capacity.exact_large);
 }
 
+void recordEdges(const Event& e, const EdgesPush& push) {
+    const auto& b = e.b;
+    e.record.runGroups("cut_cells_edges", e.record.groupsOf(COUNT_SITES), push,
+                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.raw, b.cell_raw});
+}
+
 void recordFiltered(const Event& e, const FastPush& push) {
     const auto& b = e.b;
+    if (e.options.cells == CellMapping::Edges) return recordEdges(e, {push.bins, push.box_low, push.box_high, push.slots});
     const Length sites = Length::of(e.capacity.sites);
     switch (e.search) {
     case Search::Linear:
