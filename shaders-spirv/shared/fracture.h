@@ -53,7 +53,13 @@
 #define COUNT_PARTS 36            /* cavities, each part of another component's fragment */
 #define COUNT_AGAIN 37            /* candidates, where films have been merged and islands are to be found anew; else 0 */
 #define COUNT_SORT 38             /* triangles to be sorted by component */
-#define COUNT_TOTAL 39
+#define COUNT_ISLAND_PAIRS 39     /* fragments that share a cell */
+#define COUNT_PARTINGS 40         /* those of them whose boxes do not lie apart */
+#define COUNT_COLLIDERS 41
+#define COUNT_COLLIDER_FACES 42
+#define COUNT_COLLIDER_VERTICES 43
+#define COUNT_COLLIDER_CORNERS 44
+#define COUNT_TOTAL 45
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
     bench::BenchOptions bench;
     std::string device, output;
-    bool cells_only = false, shatter_only = false;
+    bool cells_only = false, shatter_only = false, colliders_only = false;
 };
 
 // Below 1: ours is faster.
@@ -54,6 +54,19 @@ Json toJson(const bench::ShatterRow& shatter) {
     return row;
 }
 
+Json toJson(const bench::ColliderRow& row) {
+    Json json = {{"sites", row.sites},
+                 {"directions", row.directions},
+                 {"pieces", row.pieces},
+                 {"planes", row.planes},
+                 {"volume_excess", row.volume_excess},
+                 {"ms", row.ms},
+                 {"us_per_piece", 1000 * row.ms / static_cast<double>(row.pieces)},
+                 {"shatter_ms", row.shatter_ms}};
+    if (!row.kernels.empty()) json["kernels"] = sharesOf("kernel", row.kernels);
+    return json;
+}
+
 template <class Row>
 Json toJson(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -70,6 +83,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!shatters) return shatters.error();
     const auto growth = bench::benchGrowth(device, options, progress);
     if (!growth) return growth.error();
+    const auto colliders = bench::benchColliders(device, options, progress);
+    if (!colliders) return colliders.error();
     Json report = {{"device", device.name()},
                    {"driver", device.driver()},
                    {"group_size", options.group_size == 0 ? GROUP_SIZE : options.group_size},
@@ -77,7 +92,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
                    {"rounds", options.rounds},
                    {"cells", toJson(*cells)},
                    {"shatter", toJson(*shatters)},
-                   {"growth", toJson(*growth)}};
+                   {"growth", toJson(*growth)},
+                   {"colliders", toJson(*colliders)}};
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);
     if (!startup) return startup.error();
@@ -96,11 +112,13 @@ int write(const Json& report, const std::string& path) {
 
 int runBench(Options options) {
     if (options.cells_only) options.bench.shatter_counts.clear();
-    if (options.shatter_only) options.bench.cell_counts.clear();
-    if (options.cells_only || options.shatter_only) {
+    if (options.shatter_only || options.colliders_only) options.bench.cell_counts.clear();
+    if (options.cells_only || options.shatter_only) options.bench.collider_directions.clear();
+    if (options.cells_only || options.shatter_only || options.colliders_only) {
         options.bench.growth_levels.clear();
         options.bench.startup_rounds = 0;
     }
+    options.bench.only_colliders = options.colliders_only;
     auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
     const auto report = measure(**device, options.bench);
@@ -126,7 +144,10 @@ void addBench(CLI::App& app, int& exit_code) {
     command->add_option("--shatter-counts", options->bench.shatter_counts, "numbers of sites in the bumpy sphere")
         ->capture_default_str();
     CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");
-    command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
+    CLI::Option* shatters = command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
+    command->add_flag("--colliders", options->colliders_only, "only colliders, of the shatters asked for")
+        ->excludes(cells)
+        ->excludes(shatters);
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command->add_option("--group-size", options->bench.group_size, "lanes of a workgroup, a power of two from 8 to 256")

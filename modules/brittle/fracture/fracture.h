@@ -24,6 +24,7 @@ struct FractureOptions {
     Impact impact;      // of the patterns that have one
     uint32_t relax = 0; // rounds in which each site goes to the centroid of its cell (Lloyd 1982)
     Search search = Search::Auto;
+    uint32_t collider = 0;     // directions of colliders: 6, 14, 26 or 62; 0: none are made, which costs nothing
     bool only_cells = false;   // stop once the Voronoi cells are there: no fragments, for measuring
     bool time_kernels = false; // timings name kernels, not stages
 };
