@@ -7,6 +7,7 @@
 // to be cut.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
 #include "shared/collider.h"
 #include "lib/exact_cut.glsl"
@@ -61,14 +62,6 @@ ivec3 site;
 uvec2 wordsOf(int64_t a) { return uvec2(uint(uint64_t(a)), uint(uint64_t(a) >> 32)); }
 int64_t fromWords(uint low, uint high) { return int64_t(uint64_t(low) | (uint64_t(high) << 32)); }
 
-// By magnitude, as wideToFloat.
-float longToFloat(int64_t a) {
-    bool negative = isNegative(a);
-    uint64_t m = uint64_t(negative ? -a : a);
-    float f = float(uint(m >> 32)) * 4294967296.0 + float(uint(m));
-    return negative ? -f : f;
-}
-
 #include "lib/write_collider.glsl"
 
 Plane supportPlane(uint k, uint kind) {
@@ -121,7 +114,7 @@ uvec3 planesOf(uvec3 ids) {
 
 // Its bisectors are then no candidates any more, but all six sides are.
 void startFromCell(uint lane) {
-    clearSolid(lane, corner_count);
+    clearSolid(lane, neighbor_count + 6u, corner_count);
     for (uint p = lane; p < neighbor_count + 6u; p += LANES) {
         Plane e = wall(p - min(p, neighbor_count));
         if (p < neighbor_count) e = bisector(p);
@@ -194,37 +187,56 @@ bool mayCut(Candidate c) {
     return may && c.valid;
 }
 
-// A candidate a lane: those that may cut wait in shared memory.
-void lookAt(uint lane, uint k, uint total) {
-    if (lane == 0u) wanted = 0u;
-    barrier();
+// A candidate a lane, for all lanes to see.
+Candidate showCandidate(uint lane, uint k, uint total) {
     Candidate c = candidateAt(k, total);
     waiting_d[lane] = ivec4(c.plane.d, int(c.plane.id));
     waiting_r[lane] = uvec4(wordsOf(c.plane.r), wordsOf(c.deep));
-    if (mayCut(c)) atomicOr(wanted, 1u << lane);
-    barrier();
+    return c;
 }
 
-// Planes that find no room; a direction where there is none is no harm.
+// The first lane whose candidate may still cut; NO_INDEX where there is none. What a cut leaves is looked at again, which is
+// cheaper than to cut in vain.
+uint nextToCut(uint lane, Candidate c, inout bool settled) {
+    if (lane == 0u) wanted = 0u;
+    barrier();
+    settled = settled || !mayCut(c);
+    if (!settled) atomicOr(wanted, 1u << lane);
+    barrier();
+    uint next = wanted == 0u ? NO_INDEX : uint(findLSB(wanted));
+    barrier();
+    spend(corner_top + 2u);
+    return next;
+}
+
 uint lackOf(uint kind) {
     return kind == FACE_OF_CELL ? COLLIDER_LACKS_CELL
                                 : (kind == FACE_PARTING ? COLLIDER_LACKS_PARTINGS
                                                         : (kind == FACE_SURFACE ? COLLIDER_LACKS_SURFACES : COLLIDER_LACKS_DIRECTIONS));
 }
 
+// Of candidates that nobody looks at any more, since the turns have run out.
+uint lackOfAll(uint first, uint last) {
+    uint all_ = 0u, until = kindOf(last);
+    for (uint kind = kindOf(first); kind <= until; kind++) all_ |= lackOf(kind);
+    return all_;
+}
+
 void cutByAll(uint lane) {
     uint total = neighbor_count + parting_count + surface_count + directions - first_direction;
     for (uint first = 0u; first < total; first += LANES) {
-        lookAt(lane, first + lane, total);
-        uint left = wanted;
-        for (uint guard = 0u; guard < LANES && left != 0u; guard++) {
-            uint at = uint(findLSB(left));
-            left &= left - 1u;
+        Candidate c = showCandidate(lane, first + lane, total);
+        bool settled = false;
+        for (uint guard = 0u; guard <= LANES && budget != 0u; guard++) {
+            uint at = nextToCut(lane, c, settled);
+            if (at == NO_INDEX) break;
             ivec4 d = waiting_d[at];
             uvec4 r = waiting_r[at];
             uint outcome = cutBy(lane, Plane(d.xyz, uint(d.w), fromWords(r.x, r.y)), fromWords(r.z, r.w));
             if (outcome == CUT_REFUSED) lacks |= lackOf(kindOf(first + at));
+            settled = settled || lane == at;
         }
+        if (budget == 0u) lacks |= lackOfAll(first, min(first + LANES, total) - 1u);
         barrier();
     }
 }

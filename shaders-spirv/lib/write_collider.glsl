@@ -9,19 +9,7 @@ shared uint face_mask[PLANE_MASKS];
 
 vec3 placeInModel(uint t) { return (vec3(site - ivec3(kGridMiddle)) + 0.5 * corner_place[t].xyz) * step_size; }
 
-uint ranked(uint bit, uint low, uint high) {
-    uint before = bit < 32u ? low & ((1u << bit) - 1u) : high & ((1u << (bit - 32u)) - 1u);
-    return uint(bitCount(before)) + (bit < 32u ? 0u : uint(bitCount(low)));
-}
-
-uint vertexRank(uint t) {
-    uint rank = 0u;
-    for (uint m = 0u; m < ROLLED(CORNER_MASKS); m++) {
-        uint below = t >= 32u * m + 32u ? 0xffffffffu : (t > 32u * m ? (1u << (t - 32u * m)) - 1u : 0u);
-        rank += uint(bitCount(vertex_mask[m] & below));
-    }
-    return rank;
-}
+uint vertexRank(uint t) { return cornersBefore(t, vertex_mask); }
 
 // Which corner follows p and then x around a corner: a byte an entry, in the memory of the corners' numbers, which nothing
 // needs any more.
@@ -113,7 +101,7 @@ uint loopStart(uint p) {
 }
 
 void writeFace(uint p, uint base) {
-    uint face = ranked(p, face_mask[0], face_mask[1]), start = loopStart(p), at = base + 4u + COLLIDER_FACE_WORDS * face;
+    uint face = planesBefore(p, face_mask), start = loopStart(p), at = base + 4u + COLLIDER_FACE_WORDS * face;
     Plane e = planeAt(p);
     precise float size = length(vec3(e.d));
     precise vec3 n = vec3(e.d) / size;
@@ -159,7 +147,7 @@ void nameVertices(uint lane) {
 }
 
 void writeCollider(uint lane) {
-    countPlanes(lane);
+    countPlanes(lane, true);
     placeCorners(lane);
     nameVertices(lane);
     uint base = fragment * COLLIDER_WORDS;

@@ -160,7 +160,7 @@ TEST(Collider, OfASiteInTheMiddleOfManyOthersIsItsCell) {
 // More planes than a piece can have: it keeps what it has, and says so.
 TEST(Collider, OfACellWithManyFacesSaysWhatItLacks) {
     std::vector<Double3> places = {{0, 0, 0}};
-    const auto sphere = brittle::makeBuiltin("icosphere:2");
+    const auto sphere = brittle::makeBuiltin("icosphere:3");
     ASSERT_TRUE(sphere);
     for (const Double3& p : sphere->positions)
         places.push_back({.4 * p[0], .4 * p[1], .4 * p[2]});
