@@ -3,6 +3,7 @@
 // A struct of a kernel that has the name of a row below must have its members, in order, at its offsets; a struct that is
 // in an array must have the C++ size as its stride. A row that no kernel uses fails.
 #include "engine/reflection.h"
+#include "shaders-spirv/shared/collider.h"
 #include "shaders-spirv/shared/fragment_record.h"
 #include "shaders-spirv/shared/scene.h"
 #include "tests/engine/test_device.h"
@@ -41,6 +42,12 @@ const std::vector<Row>& rows() {
           MEMBER(ObjectState, velocity), MEMBER(ObjectState, radius), MEMBER(ObjectState, angular_momentum),
           MEMBER(ObjectState, fragment), MEMBER(ObjectState, inertia), MEMBER(ObjectState, material),
           MEMBER(ObjectState, flags)}},
+        {"ColliderRecord",
+         sizeof(brittle::ColliderRecord),
+         {{"range", offsetof(brittle::ColliderRecord, range)}, {"info", offsetof(brittle::ColliderRecord, info)}}},
+        {"ColliderFaceRecord",
+         sizeof(brittle::ColliderFaceRecord),
+         {{"plane", offsetof(brittle::ColliderFaceRecord, plane)}, {"loop", offsetof(brittle::ColliderFaceRecord, loop)}}},
         {"FragmentRecord",
          sizeof(brittle::FragmentRecord),
          {{"measure", offsetof(brittle::FragmentRecord, measure)},

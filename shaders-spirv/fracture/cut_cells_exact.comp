@@ -42,6 +42,9 @@ layout(push_constant) uniform Push {
     uint raw_base;     // where this class begins in `raw`
     uint next_capacity;
 };
+#ifndef GLOBAL_STORE
+UPDATES(7, uint, store); // bound, and left alone: all sizes take the same buffers
+#endif
 #include "lib/exact_store.glsl"
 #include "lib/group_search.glsl"
 

@@ -25,7 +25,6 @@ layout(set = 0, binding = 7, std430) coherent buffer stores_block { CellStore st
 #define slots stores[flatGroup()].slots
 #define corner_store stores[flatGroup()].corner_store
 #else
-UPDATES(7, uint, store);
 shared ivec4 plane_d[PLANES];        // normal, id
 shared vec4 corner_place[CORNERS];   // w in fp32 and a bound of its error
 shared uvec2 plane_r[PLANES];

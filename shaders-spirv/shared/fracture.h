@@ -59,7 +59,13 @@
 #define COUNT_AGAIN 37            /* candidates, where films have been merged and islands are to be found anew; else 0 */
 #define COUNT_SORT 38             /* triangles to be sorted by component */
 #define COUNT_WIDE_FACES 39       /* that a lane cannot triangulate */
-#define COUNT_TOTAL 40
+#define COUNT_ISLAND_PAIRS 40     /* fragments that share a cell */
+#define COUNT_PARTINGS 41         /* those of them whose boxes do not lie apart */
+#define COUNT_COLLIDERS 42
+#define COUNT_COLLIDER_FACES 43
+#define COUNT_COLLIDER_VERTICES 44
+#define COUNT_COLLIDER_CORNERS 45
+#define COUNT_TOTAL 46
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL

@@ -17,8 +17,8 @@ endif()
 
 if(TARGET brittle_module)
     add_library(brittle_bench STATIC ${bench_dir}/bench.cpp ${bench_dir}/bench_caps.cpp ${bench_dir}/bench_cells.cpp
-        ${bench_dir}/bench_shatter.cpp ${bench_dir}/bench_startup.cpp ${bench_dir}/bench_variants.cpp ${bench_dir}/our_side.cpp
-        ${bench_dir}/peer_cgal.cpp)
+        ${bench_dir}/bench_colliders.cpp ${bench_dir}/bench_shatter.cpp ${bench_dir}/bench_startup.cpp
+        ${bench_dir}/bench_variants.cpp ${bench_dir}/our_side.cpp ${bench_dir}/peer_cgal.cpp)
     target_link_libraries(brittle_bench PUBLIC brittle_module PRIVATE brittle_bench_inputs)
 endif()
 if(TARGET brittle)

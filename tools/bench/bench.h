@@ -23,12 +23,14 @@ struct BenchOptions {
     uint32_t growth_sites = 100;
     std::vector<uint32_t> variant_cell_counts = {100, 1'000, 10'000}; // sites in a cube, cut in every way there is
     std::vector<uint32_t> variant_shatter_counts = {100};             // and in the bumpy sphere
+    std::vector<uint32_t> collider_directions = {6, 14, 26, 62};      // for every number of sites that is shattered
     uint32_t startup_rounds = 3;
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
     uint64_t seed = 1;
-    uint32_t group_size = 0; // lanes of a workgroup; 0: the usual number
-    bool kernels = false;    // time every kernel as well, in runs of their own
+    uint32_t group_size = 0;     // lanes of a workgroup; 0: the usual number
+    bool only_colliders = false; // of the shatters
+    bool kernels = false;        // time every kernel as well, in runs of their own
 };
 
 using Times = std::vector<std::pair<std::string, double>>; // milliseconds of device time, in order
@@ -68,6 +70,16 @@ struct VariantRow {
     double default_ms = 0; // of the default in the same run
 };
 
+// Colliders of a shatter, next to the whole of it, in the same runs.
+struct ColliderRow {
+    uint32_t sites = 0, directions = 0;
+    size_t pieces = 0, planes = 0;
+    double volume_excess = 0; // of all pieces over all fragments, as a part of these
+    double ms = 0;            // device time of the colliders
+    double shatter_ms = 0;    // and of all else
+    Times kernels;            // where asked for: the colliders' own
+};
+
 struct StartupRow {
     double cold_ms = 0, warm_ms = 0; // a process that breaks 1280 triangles into 10 cells, without and with the driver's cache
 };
@@ -85,6 +97,8 @@ engine::Result<std::vector<ShatterRow>> benchGrowth(engine::Device& device, cons
 engine::Result<std::vector<CapsRow>> benchCaps(engine::Device& device, const BenchOptions& options, const Progress& progress);
 engine::Result<std::vector<VariantRow>> benchVariants(engine::Device& device, const BenchOptions& options,
                                                       const Progress& progress);
+engine::Result<std::vector<ColliderRow>> benchColliders(engine::Device& device, const BenchOptions& options,
+                                                        const Progress& progress);
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none

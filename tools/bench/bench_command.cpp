@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
     bench::BenchOptions bench;
     std::string device, output;
-    bool cells_only = false, shatter_only = false, variants_only = false;
+    bool cells_only = false, shatter_only = false, variants_only = false, colliders_only = false;
 };
 
 // Below 1: ours is faster.
@@ -71,6 +71,19 @@ Json toJson(const bench::VariantRow& row) {
             {"times_default", row.default_ms > 0 ? row.ms / row.default_ms : 0}};
 }
 
+Json toJson(const bench::ColliderRow& row) {
+    Json json = {{"sites", row.sites},
+                 {"directions", row.directions},
+                 {"pieces", row.pieces},
+                 {"planes", row.planes},
+                 {"volume_excess", row.volume_excess},
+                 {"ms", row.ms},
+                 {"us_per_piece", 1000 * row.ms / static_cast<double>(row.pieces)},
+                 {"shatter_ms", row.shatter_ms}};
+    if (!row.kernels.empty()) json["kernels"] = sharesOf("kernel", row.kernels);
+    return json;
+}
+
 template <class Row>
 Json toJson(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -91,6 +104,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!growth) return growth.error();
     const auto variants = bench::benchVariants(device, options, progress);
     if (!variants) return variants.error();
+    const auto colliders = bench::benchColliders(device, options, progress);
+    if (!colliders) return colliders.error();
     Json report = {{"device", device.name()},
                    {"driver", device.driver()},
                    {"group_size", options.group_size == 0 ? GROUP_SIZE : options.group_size},
@@ -100,7 +115,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
                    {"shatter", toJson(*shatters)},
                    {"caps", toJson(*caps)},
                    {"growth", toJson(*growth)},
-                   {"variants", toJson(*variants)}};
+                   {"variants", toJson(*variants)},
+                   {"colliders", toJson(*colliders)}};
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);
     if (!startup) return startup.error();
@@ -118,16 +134,19 @@ int write(const Json& report, const std::string& path) {
 }
 
 int runBench(Options options) {
-    if (options.cells_only || options.variants_only) options.bench.shatter_counts.clear();
-    if (options.shatter_only || options.variants_only) options.bench.cell_counts.clear();
-    if (options.cells_only || options.shatter_only) {
-        options.bench.variant_cell_counts.clear();
-        options.bench.variant_shatter_counts.clear();
-    }
-    if (options.cells_only || options.shatter_only || options.variants_only) {
+    const bool some = options.cells_only || options.shatter_only || options.variants_only || options.colliders_only;
+    if (some) {
+        if (!options.cells_only) options.bench.cell_counts.clear();
+        if (!options.shatter_only && !options.colliders_only) options.bench.shatter_counts.clear();
+        if (!options.colliders_only) options.bench.collider_directions.clear();
+        if (!options.variants_only) {
+            options.bench.variant_cell_counts.clear();
+            options.bench.variant_shatter_counts.clear();
+        }
         options.bench.growth_levels.clear();
         options.bench.startup_rounds = 0;
     }
+    options.bench.only_colliders = options.colliders_only;
     auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
     const auto report = measure(**device, options.bench);
@@ -154,13 +173,18 @@ void addBench(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     CLI::Option* cells = command->add_flag("--cells", options->cells_only, "only cells");
     CLI::Option* shatters = command->add_flag("--shatter", options->shatter_only, "only whole shatters")->excludes(cells);
-    command
-        ->add_flag("--variants", options->variants_only, "only searches, mappings of cells and precisions, against the default")
-        ->excludes(cells)
-        ->excludes(shatters);
+    CLI::Option* variants = command
+                                ->add_flag("--variants", options->variants_only,
+                                           "only searches, mappings of cells and precisions, against the default")
+                                ->excludes(cells)
+                                ->excludes(shatters);
     command->add_option("--variant-counts", options->bench.variant_cell_counts, "numbers of sites in a cube, for all variants")
         ->capture_default_str()
         ->check(CLI::Range(1u, MOST_LINEAR_SITES));
+    command->add_flag("--colliders", options->colliders_only, "only colliders, of the shatters asked for")
+        ->excludes(cells)
+        ->excludes(shatters)
+        ->excludes(variants);
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command->add_option("--group-size", options->bench.group_size, "lanes of a workgroup, a power of two from 8 to 256")

@@ -66,7 +66,7 @@ engine::Result<std::vector<ShatterRow>> benchShatter(engine::Device& device, con
     auto fracture = brittle::Fracture::create(device, options.group_size);
     if (!fracture) return fracture.error();
     std::vector<ShatterRow> rows;
-    for (const uint32_t count : options.shatter_counts) {
+    for (const uint32_t count : options.only_colliders ? std::vector<uint32_t>{} : options.shatter_counts) {
         progress("whole shatter into " + std::to_string(count) + " cells");
         const auto samples = alternate(**fracture, *model, count, options, true);
         if (!samples) return samples.error();

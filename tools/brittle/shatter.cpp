@@ -1,5 +1,6 @@
 #include "tools/brittle/shatter.h"
 
+#include "modules/brittle/collision/collider_mesh.h"
 #include "modules/brittle/export/glb.h"
 #include "modules/brittle/export/output_file.h"
 #include "tools/brittle/model.h"
@@ -43,7 +44,7 @@ private:
 
     const ShatterOptions& options_;
     ShatterOutcome outcome_;
-    std::optional<brittle::OutputFile> output_, picture_;
+    std::optional<brittle::OutputFile> output_, picture_, collider_picture_;
     std::optional<brittle::PreparedMesh> model_;
     std::vector<brittle::Double3> given_sites_;
     std::unique_ptr<engine::Device> device_;
@@ -83,8 +84,13 @@ engine::Result<void> Run::checkPathsApart() const {
     const auto refused = [](const std::string& path, const std::string& why) {
         return engine::Error{engine::ErrorCode::BadInput, path + ": " + why};
     };
-    if (sameFile(options_.picture, options_.output)) return refused(options_.output, "fragments and picture need a file each");
-    for (const std::string& output : {options_.output, options_.picture})
+    const std::string &picture = options_.picture, &of_colliders = options_.collider_picture;
+    if (sameFile(picture, options_.output) || sameFile(of_colliders, options_.output))
+        return refused(options_.output, "fragments and picture need a file each");
+    if (!of_colliders.empty() && options_.collider == 0)
+        return refused(of_colliders, "there are no colliders to draw; ask for them, with --collider 26 say");
+    if (sameFile(picture, of_colliders)) return refused(picture, "the two pictures need a file each");
+    for (const std::string& output : {options_.output, picture, of_colliders})
         for (const std::string& input : {options_.model, options_.sites_file})
             if (sameFile(output, input))
                 return refused(output, "is read as input and would be overwritten; write to another file");
@@ -100,8 +106,10 @@ engine::Result<void> Run::openOutputs() {
     };
     if (auto apart = checkPathsApart(); !apart) return apart.error();
     if (auto opened = open(options_.output, output_); !opened) return opened.error();
-    if (options_.picture.empty()) return {};
-    return open(options_.picture, picture_);
+    if (!options_.picture.empty())
+        if (auto opened = open(options_.picture, picture_); !opened) return opened.error();
+    if (options_.collider_picture.empty()) return {};
+    return open(options_.collider_picture, collider_picture_);
 }
 
 engine::Result<void> Run::readModel() {
@@ -146,6 +154,7 @@ engine::Result<void> Run::breakModel() {
     options.precision = options_.precision;
     options.pattern = options_.pattern;
     options.relax = options_.relax;
+    options.collider = options_.collider;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
                       brittle::favorOf(options_.strength)};
     auto fracture = brittle::Fracture::create(*device_, options_.group_size);
@@ -182,13 +191,19 @@ engine::Result<void> Run::writeFragments() {
 }
 
 engine::Result<void> Run::writePicture() {
-    if (!picture_) return {};
-    return drawFragments(*device_, outcome_.result.fragments, options_.explode, picture_->temporaryPath());
+    const brittle::FragmentSet& fragments = outcome_.result.fragments;
+    if (picture_)
+        if (auto drawn = drawFragments(*device_, fragments, options_.explode, picture_->temporaryPath()); !drawn)
+            return drawn.error();
+    if (!collider_picture_) return {};
+    const brittle::FragmentSet colliders = brittle::meshesOfColliders(fragments);
+    return drawFragments(*device_, colliders, options_.explode, collider_picture_->temporaryPath());
 }
 
 engine::Result<void> Run::commitOutputs() {
-    if (picture_)
-        if (auto committed = picture_->commit(); !committed) return committed.error();
+    for (auto* picture : {&picture_, &collider_picture_})
+        if (*picture)
+            if (auto committed = (*picture)->commit(); !committed) return committed.error();
     return output_->commit();
 }
 

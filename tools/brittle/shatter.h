@@ -17,6 +17,7 @@ struct ShatterOptions {
     std::string model, output, device;
     std::string sites_file; // instead of a number of sites
     std::string picture;    // of the fragments, moved apart
+    std::string collider_picture;
     brittle::Pattern pattern = brittle::Pattern::Uniform;
     std::optional<brittle::Double3> at; // where it is hit; the center of its box if nowhere else
     double strength = 1;                // joules
@@ -29,6 +30,7 @@ struct ShatterOptions {
     uint32_t sites = 100;
     uint64_t seed = 1;
     uint32_t group_size = 0; // lanes of a workgroup; 0: the usual number
+    uint32_t collider = 0;   // directions; 0: none
     bool repair = false;     // mend the model where it needs to be
     bool verify = false;     // refuse fragments that break their contract
     bool as_json = false;

@@ -1,5 +1,6 @@
 // brittle shatter: its options and what it prints.
 #include "modules/brittle/mesh/format.h"
+#include "tools/brittle/collider_report.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/model.h"
 #include "tools/brittle/shatter.h"
@@ -46,6 +47,7 @@ nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
         {"exact_cells", {{"total", counts.exact_total}, {"redone", counts.exact_redone}}},
         {"ms", ms},
     };
+    if (!outcome.result.fragments.colliders.pieces.empty()) json["colliders"] = collidersJson(outcome.result.fragments);
     if (!outcome.mended.isEmpty()) json["mended"] = mendedJson(outcome.mended);
     return json;
 }
@@ -61,7 +63,9 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
     std::printf("cells      %u ok, %u empty, %u merged, %u refused; %u of %u done again exactly\n", counts.cells_ok,
                 counts.cells_empty, counts.cells_merged, counts.cells_refused, counts.exact_redone, counts.exact_total);
     std::printf("fragments  %zu, in %s\n", outcome.result.fragments.fragments.size(), options.output.c_str());
-    if (!options.picture.empty()) std::printf("picture    %s\n", options.picture.c_str());
+    if (!outcome.result.fragments.colliders.pieces.empty()) printColliders(outcome.result.fragments);
+    for (const std::string& picture : {options.picture, options.collider_picture})
+        if (!picture.empty()) std::printf("picture    %s\n", picture.c_str());
     if (options.verify)
         std::printf("verified   volume error %.2g, area error %.2g, every fragment closed, connected and within its cell\n",
                     outcome.contract.volume_error, outcome.contract.area_error);
@@ -81,12 +85,15 @@ int runShatter(const ShatterOptions& options) {
     return kOk;
 }
 
+const std::map<std::string, uint32_t> kColliders = {{"none", 0}, {"6", 6}, {"14", 14}, {"26", 26}, {"62", 62}};
+
 constexpr const char* kFooter =
     "Examples:\n"
     "  brittle shatter vase.stl -o pieces.glb --sites 200 --seed 7 --verify\n"
     "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
     "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
     "  brittle shatter vase.stl -o pieces.glb --sites 80 --at 0,0.1,0.3 --strength 5\n"
+    "  brittle shatter vase.stl -o pieces.glb --collider 26 --collider-picture hulls.png --explode 0.3\n"
     "\n"
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
@@ -190,6 +197,16 @@ void addShatter(CLI::App& app, int& exit_code) {
                      "of the decisions: exact, double or fast; what is not exact may fail its check, and then writes nothing")
         ->transform(CLI::CheckedTransformer(kPrecisions).description(""))
         ->option_text("NAME [exact]");
+    CLI::Option* collider =
+        command
+            ->add_option(
+                "--collider", options->collider,
+                "also make a convex piece to collide with for every fragment, from so many directions: none, 6, 14, 26 or 62")
+            ->transform(CLI::CheckedTransformer(kColliders).description(""))
+            ->option_text("DIRECTIONS [none]");
+    command->add_option("--collider-picture", options->collider_picture, "draw the colliders into this PNG file")
+        ->needs(collider)
+        ->check(someText);
     command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");

@@ -1,5 +1,6 @@
 #include "modules/brittle/export/glb.h"
 
+#include "modules/brittle/collision/collider_mesh.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 // The only file that sees tinygltf.
@@ -17,7 +18,7 @@ namespace brittle {
 namespace {
 
 enum View { kPositions, kNormals, kUvs, kIndices, kViewCount };
-enum Material { kOuter, kInner };
+enum Material { kOuter, kInner, kCollider };
 
 constexpr size_t kMaxBytes = 0xffff0000; // lengths in the file have 32 bits
 
@@ -60,19 +61,22 @@ void tidyNormal(FragmentVertex& vertex, const Double3& face_normal) {
 
 class GlbEncoder {
 public:
-    explicit GlbEncoder(const FragmentSet& set) : set_(set) {}
+    explicit GlbEncoder(const FragmentSet& set) : set_(set), colliders_(meshesOfColliders(set)) {}
     engine::Result<std::string> run();
 
 private:
     void addMaterial(const char* name, std::array<double, 3> color);
+    void addColliderMaterial();
     void addFragment(const Fragment& fragment);
-    tinygltf::Primitive makePrimitive(const Fragment& fragment, uint32_t first, uint32_t count, Material material);
-    std::array<FragmentVertex, 3> triangle(const Fragment& fragment, uint32_t first) const;
+    void addCollider(size_t fragment);
+    tinygltf::Primitive makePrimitive(const FragmentSet& from, const Fragment& fragment, uint32_t first, uint32_t count,
+                                      Material material);
     int addAccessor(View view, size_t offset, size_t count, int type, int component);
     void addBounds(const std::vector<FragmentVertex>& vertices, tinygltf::Accessor& accessor) const;
     void joinViews();
 
     const FragmentSet& set_;
+    const FragmentSet colliders_;
     tinygltf::Model model_;
     std::array<std::vector<unsigned char>, kViewCount> data_;
 };
@@ -94,6 +98,9 @@ engine::Result<std::string> GlbEncoder::run() {
     model_.defaultScene = 0;
     for (const Fragment& fragment : set_.fragments)
         addFragment(fragment);
+    if (!colliders_.fragments.empty()) addColliderMaterial();
+    for (size_t f = 0; f < colliders_.fragments.size(); ++f)
+        addCollider(f);
     joinViews();
     if (model_.buffers[0].data.size() > kMaxBytes)
         return engine::Error{engine::ErrorCode::Capacity, "the fragments exceed the 4 GiB of a GLB file; use fewer sites"};
@@ -111,6 +118,12 @@ void GlbEncoder::addMaterial(const char* name, std::array<double, 3> color) {
     material.pbrMetallicRoughness.roughnessFactor = 0.8;
 }
 
+void GlbEncoder::addColliderMaterial() {
+    addMaterial("collider", {0.25, 0.65, 0.95});
+    model_.materials.back().pbrMetallicRoughness.baseColorFactor[3] = 0.35;
+    model_.materials.back().alphaMode = "BLEND";
+}
+
 tinygltf::Value numberList(std::span<const double> numbers) {
     return tinygltf::Value(tinygltf::Value::Array(numbers.begin(), numbers.end()));
 }
@@ -122,8 +135,8 @@ void GlbEncoder::addFragment(const Fragment& fragment) {
     mesh.name = name.data();
     const uint32_t outer = fragment.outer_index_count - fragment.earlier_index_count;
     const uint32_t inner = fragment.inner_index_count + fragment.earlier_index_count;
-    if (outer > 0) mesh.primitives.push_back(makePrimitive(fragment, fragment.first_index, outer, kOuter));
-    if (inner > 0) mesh.primitives.push_back(makePrimitive(fragment, fragment.first_index + outer, inner, kInner));
+    if (outer > 0) mesh.primitives.push_back(makePrimitive(set_, fragment, fragment.first_index, outer, kOuter));
+    if (inner > 0) mesh.primitives.push_back(makePrimitive(set_, fragment, fragment.first_index + outer, inner, kInner));
     tinygltf::Node& node = model_.nodes.emplace_back();
     node.name = name.data();
     node.mesh = static_cast<int>(model_.meshes.size() - 1);
@@ -135,10 +148,29 @@ void GlbEncoder::addFragment(const Fragment& fragment) {
                                                           {"inertia", numberList(fragment.inertia)}});
 }
 
-std::array<FragmentVertex, 3> GlbEncoder::triangle(const Fragment& fragment, uint32_t first) const {
+// A child of its fragment, which carries the translation.
+void GlbEncoder::addCollider(size_t fragment) {
+    const Fragment& shape = colliders_.fragments[fragment];
+    const ColliderPiece& piece = set_.colliders.pieces[fragment];
+    std::array<char, 32> name;
+    std::snprintf(name.data(), name.size(), "collider_%04zu", fragment);
+    tinygltf::Mesh& mesh = model_.meshes.emplace_back();
+    mesh.name = name.data();
+    mesh.primitives.push_back(makePrimitive(colliders_, shape, shape.first_index, shape.vertex_count, kCollider));
+    tinygltf::Node& node = model_.nodes.emplace_back();
+    node.name = name.data();
+    node.mesh = static_cast<int>(model_.meshes.size() - 1);
+    node.extras = tinygltf::Value(tinygltf::Value::Object{{"collider", tinygltf::Value(static_cast<int>(fragment))},
+                                                          {"planes", tinygltf::Value(static_cast<int>(piece.face_count))},
+                                                          {"volume", tinygltf::Value(shape.volume)},
+                                                          {"lacks", tinygltf::Value(static_cast<int>(piece.lacks))}});
+    model_.nodes[fragment].children.push_back(static_cast<int>(model_.nodes.size() - 1));
+}
+
+std::array<FragmentVertex, 3> triangleOf(const FragmentSet& set, const Fragment& fragment, uint32_t first) {
     std::array<FragmentVertex, 3> corners;
     for (uint32_t k = 0; k < 3; ++k)
-        corners[k] = set_.vertices[fragment.first_vertex + set_.indices[first + k]];
+        corners[k] = set.vertices[fragment.first_vertex + set.indices[first + k]];
     const Double3 a = positionOf(corners[0]);
     const Double3 face_normal = normalized(cross(positionOf(corners[1]) - a, positionOf(corners[2]) - a), {0, 0, 1});
     for (FragmentVertex& corner : corners)
@@ -146,11 +178,12 @@ std::array<FragmentVertex, 3> GlbEncoder::triangle(const Fragment& fragment, uin
     return corners;
 }
 
-tinygltf::Primitive GlbEncoder::makePrimitive(const Fragment& fragment, uint32_t first, uint32_t count, Material material) {
+tinygltf::Primitive GlbEncoder::makePrimitive(const FragmentSet& from, const Fragment& fragment, uint32_t first, uint32_t count,
+                                              Material material) {
     VertexSet set(count);
     const size_t index_offset = data_[kIndices].size();
     for (uint32_t k = 0; k < count; k += 3)
-        for (const FragmentVertex& corner : triangle(fragment, first + k))
+        for (const FragmentVertex& corner : triangleOf(from, fragment, first + k))
             append(data_[kIndices], set.indexOf(corner));
     const std::array offsets = {data_[kPositions].size(), data_[kNormals].size(), data_[kUvs].size()};
     for (const FragmentVertex& vertex : set.vertices()) {

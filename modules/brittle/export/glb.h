@@ -4,6 +4,9 @@
 // and one for the faces of this cut and earlier ones (`inner`). Positions are relative to the center of the model's box, which
 // stands in every node's translation, in double: a model far from the origin keeps its bits. extras: site (model space), cell,
 // volume.
+//
+// Where the set has colliders, every fragment's node has a child collider_0000 and on, with the piece as a mesh (material
+// `collider`); extras: collider (the fragment), planes, volume, lacks (ColliderLack).
 #pragma once
 
 #include "engine/result.h"

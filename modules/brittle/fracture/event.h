@@ -2,6 +2,7 @@
 // record kernels in the order of the pipeline; none waits for the device.
 #pragma once
 
+#include "modules/brittle/fracture/collider_pools.h"
 #include "modules/brittle/fracture/fracture.h"
 #include "modules/brittle/fracture/pools.h"
 #include "modules/brittle/fracture/recorder.h"
@@ -21,8 +22,9 @@ struct Event {
     const EventBuffers& b;
     const ScenePools& scene;
     Recorder& record;
-    Search search;        // never Auto
-    uint32_t turn_budget; // loop turns of a lane of cut_cells
+    Search search;                // never Auto
+    uint32_t turn_budget;         // loop turns of a lane of cut_cells
+    ColliderPools colliders = {}; // where they were asked for
 };
 
 // place_sites, neighbor_grid
@@ -46,5 +48,11 @@ void recordCaps(const Event& e);
 void recordIslands(const Event& e);
 void recordMassProperties(const Event& e);
 void recordEmission(const Event& e);
+// support_heights, part_islands, collider: where they were asked for
+void recordColliders(const Event& e);
+
+// Sorts pairs of lists by key, stably; `count` says how long they are. Keys must lie below the number of components that there
+// is room for.
+void recordSort(const Event& e, uint32_t count, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2]);
 
 } // namespace brittle

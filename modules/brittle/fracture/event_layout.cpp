@@ -1,6 +1,7 @@
 // Where the buffers of an event lie in the general buffer. What one stage alone needs shares its memory with what the other
 // stages need; stages clear their own tables when they begin.
 #include "modules/brittle/fracture/pools.h"
+#include "shaders-spirv/shared/collider.h"
 
 #include <algorithm>
 
@@ -38,8 +39,8 @@ void takeKept(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     const Mesh& mesh = in.mesh;
     EventBuffers& b = in.b;
-    uint64_t longest =
-        std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins}, uint64_t{c.voronoi_edges}});
+    uint64_t longest = std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins},
+                                 uint64_t{c.voronoi_edges}, uint64_t{c.island_pairs}});
     uint64_t points = c.points();
     b.counts = take.words(STATUS_WORDS);
     b.args = take.words(9ull * COUNT_TOTAL);
@@ -64,6 +65,7 @@ void takeKept(const Input& in, Taker& take) {
     b.loose_caps = take.words(3 * (uint64_t{c.segments} + c.nodes));
     b.cap_slots = take.words(c.neighbors);
     b.cap_offsets = take.words(c.neighbors + 1ull);
+    if (c.collider_directions != 0) b.corners = take.quads(c.corners); // colliders start from them
 }
 
 // The diagram, and where mesh and diagram cross: read until the caps are made.
@@ -77,7 +79,7 @@ void takeDiagram(const Input& in, Taker& take) {
     b.grid_vertices = take.quads(c.vertices);
     b.bin_start = take.words(c.bins + 1ull);
     b.bin_sites = take.quads(c.sites);
-    b.corners = take.quads(c.corners);
+    if (c.collider_directions == 0) b.corners = take.quads(c.corners);
     b.corner_info = take.words(2ull * c.corners);
     b.vertex_sites = take.quads(c.voronoi_vertices);
     b.edge_sites = take.quads(c.voronoi_edges);
@@ -228,6 +230,28 @@ void takePieces(const Input& in, Taker& take) {
     b.shares = take.quads(2ull * c.components);
 }
 
+// Read with the pieces, so behind them.
+void takeColliders(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    const uint64_t n = c.colliders;
+    b.fragment_list = take.words(2 * n);
+    for (engine::BufferView* list : {&b.island_cells, &b.other_island_cells, &b.islands, &b.other_islands, &b.pair_counts})
+        *list = take.words(n);
+    b.supports = take.words(SUPPORT_DIRECTIONS * n);
+    b.surfaces = take.words(SURFACE_WORDS * n);
+    b.pair_offsets = take.words(n + 1);
+    b.island_pairs = take.words(2ull * c.island_pairs);
+    b.pair_flags = take.words(c.island_pairs);
+    b.pair_slots = take.words(c.island_pairs + 1ull);
+    b.parting_list = take.words(c.partings);
+    b.parting_ranges = take.words(2 * n);
+    b.partings = take.words(uint64_t{PARTING_WORDS} * c.partings);
+    b.loose_colliders = take.words(COLLIDER_WORDS * n);
+    b.collider_sizes = take.quads(n);
+    b.collider_offsets = take.quads(n + 1);
+}
+
 } // namespace
 
 uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
@@ -244,6 +268,7 @@ uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& me
     }
     arena.release(until_caps);
     takePieces(in, take);
+    if (c.collider_directions != 0) takeColliders(in, take);
     return take.largest();
 }
 

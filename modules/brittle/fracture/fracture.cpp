@@ -51,7 +51,7 @@ public:
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
         Capacities capacity = estimateCapacities(mesh, topology, prepared->grid, count);
-        if (options.only_cells) capacity = forCellsOnly(capacity);
+        capacity = options.only_cells ? forCellsOnly(capacity) : withColliders(capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.relaxed = options.relax != 0;
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
@@ -122,6 +122,13 @@ private:
         return {};
     }
 
+    static engine::Result<void> checkCollider(uint32_t directions) {
+        constexpr uint32_t kKnown[] = {0, 6, 14, 26, 62};
+        if (std::ranges::find(kKnown, directions) != std::end(kKnown)) return {};
+        return engine::Error{engine::ErrorCode::BadInput, "colliders of " + std::to_string(directions) +
+                                                              " directions; ask for 6, 14, 26 or 62, or 0 for none"};
+    }
+
     static engine::Result<Prepared> prepare(const Mesh& mesh, const FractureOptions& options) {
         if (siteCount(options) == 0) return engine::Error{engine::ErrorCode::BadInput, "no sites: ask for at least one"};
         if (options.search == Search::Linear && siteCount(options) > MOST_LINEAR_SITES)
@@ -137,6 +144,7 @@ private:
             return engine::Error{engine::ErrorCode::Capacity,
                                  "the mesh has more than " + std::to_string(kMostTriangles) + " triangles; reduce it"};
         if (auto sound = checkImpact(mesh, options); !sound) return sound.error();
+        if (auto sound = checkCollider(options.collider); !sound) return sound.error();
         Prepared p;
         for (Double3 s : options.given_sites) {
             for (size_t k = 0; k < 3; k++)
@@ -192,6 +200,7 @@ private:
         recordIslands(event);
         recordMassProperties(event);
         recordEmission(event);
+        if (event.options.collider != 0) recordColliders(event);
     }
 
     engine::Result<engine::ScratchArena> makeArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
@@ -216,6 +225,8 @@ private:
         capacity.emit_window = emitWindow(device_.limits());
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
+        auto colliders = ColliderBuffers::create(device_, capacity);
+        if (!colliders) return colliders.error();
         engine::Commands commands(device_);
         if (auto ok = commands.begin(); !ok) return ok.error();
         if (options.time_kernels) commands.timeKernels();
@@ -232,7 +243,7 @@ private:
         upload.copy(commands, *staging);
         const Search search = searchOf(options, p.grid);
         recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, search,
-                   turnBudget(search, capacity.sites)});
+                   turnBudget(search, capacity.sites), colliders->views()});
         if (auto ok = recorder.status(); !ok) return ok.error();
         auto start = Clock::now();
         if (auto ok = commands.submitAndWait(); !ok) return ok.error();
@@ -244,6 +255,10 @@ private:
         auto read = readBack(device_, mesh, p.grid, options, b, scene->views(), attempt.result);
         if (!read) return read.error();
         attempt.status = std::move(*read);
+        if (capacity.collider_directions == 0 || attempt.status[STATUS_FAILED] != 0) return attempt;
+        auto set = readColliders(device_, attempt.status, b, colliders->views());
+        if (!set) return set.error();
+        attempt.result.fragments.colliders = std::move(*set);
         return attempt;
     }
 

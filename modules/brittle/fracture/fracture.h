@@ -30,6 +30,7 @@ struct FractureOptions {
     Caps caps = Caps::Exact;
     CellMapping cells = CellMapping::Auto;  // edges: by grid, other searches are refused
     Precision precision = Precision::Exact; // less may break the contract of fragments; see verifyContract
+    uint32_t collider = 0;                  // directions of colliders: 6, 14, 26 or 62; 0: none are made, which costs nothing
     bool only_cells = false;                // stop once the Voronoi cells are there: no fragments, for measuring
     bool time_kernels = false;              // timings name kernels, not stages
 };

@@ -1,6 +1,7 @@
 // The outcome of one fracture event, read back from the scene buffers.
 #pragma once
 
+#include "modules/brittle/collision/collider.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <array>
@@ -39,6 +40,7 @@ struct FragmentSet {
     std::vector<FragmentVertex> vertices;
     std::vector<uint32_t> indices; // relative to the fragment's first_vertex
     std::vector<Fragment> fragments;
+    ColliderSet colliders; // where they were asked for
 };
 
 } // namespace brittle

@@ -106,6 +106,18 @@ bool takeUp(bool& recorded, bool met) {
 
 } // namespace
 
+// Of faces every piece has those of its cell, and the directions that its cell does not make up for: about a third of them.
+Capacities withColliders(Capacities c, uint32_t directions) {
+    if (directions == 0) return c;
+    c.collider_directions = directions;
+    c.colliders = std::min(c.components, c.sites + c.sites / 4 + 256);
+    c.island_pairs = c.partings = 1024;
+    c.collider_faces = c.colliders * (16 + directions / 3);
+    c.collider_vertices = 2 * c.collider_faces;
+    c.collider_corners = 6 * c.collider_faces;
+    return c;
+}
+
 Capacities forCellsOnly(Capacities c) {
     constexpr uint32_t kLittle = 16;
     for (uint32_t* pool : {&c.crossings, &c.pairs, &c.polygons, &c.sides, &c.triples, &c.fans, &c.intervals, &c.segments,
@@ -126,6 +138,7 @@ bool Capacities::grow(const uint32_t* status) {
     }
     more |= takeUp(rare.films, status[COUNT_FILMS] != 0);
     more |= takeUp(rare.cavities, status[COUNT_CAVITIES] != 0);
+    more |= takeUp(rare.partings, status[COUNT_PARTINGS] != 0);
     if (status[STATUS_SIDES] > sides_per_polygon && sides_per_polygon < MOST_SIDES) {
         sides_per_polygon = MOST_SIDES;
         more = true;
@@ -156,6 +169,12 @@ bool Capacities::grow(const uint32_t* status) {
     fit(components, COUNT_COMPONENTS);
     fit(exact_medium, COUNT_EXACT_MEDIUM);
     fit(exact_large, COUNT_EXACT_LARGE);
+    fit(colliders, COUNT_COLLIDERS);
+    fit(island_pairs, COUNT_ISLAND_PAIRS);
+    fit(partings, COUNT_PARTINGS);
+    fit(collider_faces, COUNT_COLLIDER_FACES);
+    fit(collider_vertices, COUNT_COLLIDER_VERTICES);
+    fit(collider_corners, COUNT_COLLIDER_CORNERS);
     polygons = std::max(polygons, pairs);
     pieces = triangles + fans + 2 * caps;
     fragments = components;

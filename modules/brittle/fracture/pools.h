@@ -24,6 +24,8 @@ struct Capacities {
     uint32_t crossings = 0, pairs = 0, pair_table = 0, polygons = 0, sides = 0, triples = 0, fans = 0;
     uint32_t intervals = 0, segments = 0, nodes = 0, caps = 0, flap_sides = 0, pieces = 0, components = 0, fragments = 0,
              emitted = 0;
+    uint32_t collider_directions = 0, colliders = 0, island_pairs = 0, partings = 0; // all 0 where none are asked for
+    uint32_t collider_faces = 0, collider_vertices = 0, collider_corners = 0;
     uint32_t exact_medium = 0, exact_large = 0;
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
@@ -33,7 +35,7 @@ struct Capacities {
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     struct Rare {
         bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, films = false,
-             cavities = false;
+             cavities = false, partings = false;
         Rare joined(const Rare& other) const {
             return {exact_cells || other.exact_cells,
                     medium_cells || other.medium_cells,
@@ -41,7 +43,8 @@ struct Capacities {
                     huge_faces || other.huge_faces,
                     flaps || other.flaps,
                     films || other.films,
-                    cavities || other.cavities};
+                    cavities || other.cavities,
+                    partings || other.partings};
         }
     } rare;
 
@@ -57,6 +60,8 @@ struct Capacities {
     bool grow(const uint32_t* status);
 };
 
+// Room for colliders with so many directions.
+Capacities withColliders(Capacities capacity, uint32_t directions);
 // Without the pools that only stages after the cells use.
 Capacities forCellsOnly(Capacities capacity);
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count);
@@ -94,6 +99,10 @@ struct EventBuffers {
         values, other_keys, other_values, histogram, digit_offsets;
     View components, component_start, records, fates, cavities, films, parts, other_parts, classes, class_offsets, demands,
         demand_offsets, shares;
+    // colliders
+    View fragment_list, island_cells, other_island_cells, islands, other_islands, supports, surfaces, pair_counts, pair_offsets,
+        island_pairs, pair_flags, pair_slots, parting_list, parting_ranges, partings, loose_colliders, collider_sizes,
+        collider_offsets;
 };
 
 // Returns the bytes of the largest view.

@@ -1,39 +1,10 @@
 #include "modules/brittle/fracture/readback.h"
 
+#include "modules/brittle/fracture/fetch.h"
 #include "shaders-spirv/shared/fragment_record.h"
-
-#include <cstring>
 
 namespace brittle {
 namespace {
-
-struct Piece {
-    engine::BufferView source;
-    void* target;
-    size_t bytes;
-};
-
-engine::Result<void> fetch(engine::Device& device, std::span<const Piece> pieces) {
-    VkDeviceSize total = 16;
-    for (const Piece& p : pieces)
-        total += (p.bytes + 15) / 16 * 16;
-    auto buffer = engine::Buffer::create(device, total, engine::BufferDomain::Readback, 0, "readback");
-    if (!buffer) return buffer.error();
-    engine::Commands commands(device);
-    if (auto ok = commands.begin(); !ok) return ok;
-    VkDeviceSize at = 0;
-    for (const Piece& p : pieces) {
-        if (p.bytes != 0) commands.copy(p.source.sub(0, p.bytes), engine::BufferView(*buffer).sub(at, p.bytes));
-        at += (p.bytes + 15) / 16 * 16;
-    }
-    if (auto ok = commands.submitAndWait(); !ok) return ok;
-    at = 0;
-    for (const Piece& p : pieces) {
-        if (p.bytes != 0) std::memcpy(p.target, buffer->mapped() + at, p.bytes);
-        at += (p.bytes + 15) / 16 * 16;
-    }
-    return {};
-}
 
 // From second moments of volume: sums of squares less the axis' own, and products turned over.
 std::array<double, 6> inertiaOf(const FragmentRecord& record, double scale) {
@@ -91,7 +62,7 @@ engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mes
                                                const FractureOptions& options, const EventBuffers& b, const ScenePools& scene,
                                                FractureResult& result) {
     std::vector<uint32_t> status(STATUS_WORDS);
-    const Piece first[] = {{b.counts, status.data(), 4ull * STATUS_WORDS}};
+    const Fetch first[] = {{b.counts, status.data(), 4ull * STATUS_WORDS}};
     if (auto ok = fetch(device, first); !ok) return ok.error();
     if (status[STATUS_FAILED] != 0) return status;
     std::vector<Int4> sites(status[COUNT_SITES]);
@@ -100,7 +71,7 @@ engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mes
     set.center = mesh.center;
     set.vertices.resize(3ull * status[COUNT_EMITTED]);
     set.indices.resize(3ull * status[COUNT_EMITTED]);
-    const Piece rest[] = {{b.sites, sites.data(), 16 * sites.size()},
+    const Fetch rest[] = {{b.sites, sites.data(), 16 * sites.size()},
                           {scene.fragments, records.data(), sizeof(FragmentRecord) * records.size()},
                           {scene.vertices, set.vertices.data(), sizeof(FragmentVertex) * set.vertices.size()},
                           {scene.indices, set.indices.data(), 4 * set.indices.size()}};

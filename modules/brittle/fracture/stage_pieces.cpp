@@ -46,7 +46,9 @@ void recordFlaps(const Event& e) {
           {r.counts(), b.suspects, b.flap_partners, b.pieces, b.sources, b.parents});
 }
 
-// Stable; the number of passes follows from the highest key that the pools admit.
+} // namespace
+
+// The number of passes follows from the highest key that the pools admit.
 void recordSort(const Event& e, uint32_t count, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2]) {
     const auto& b = e.b;
     Recorder& r = e.record;
@@ -65,6 +67,8 @@ void recordSort(const Event& e, uint32_t count, const engine::BufferView (&keys)
                     {r.counts(), keys[from], values[from], b.digit_offsets, keys[to], values[to]});
     }
 }
+
+namespace {
 
 // Triangles of one cell that hang together; `count` of them, or none at all.
 void recordUnion(const Event& e, uint32_t count) {
