@@ -28,12 +28,9 @@ void expectTheSameCellsAtAnyPrecision(const reference::SiteSet& set) {
             EXPECT_EQ(wrongCells(expected, cutOnDevice(set, path, precision)), 0u) << nameOf(precision);
 }
 
-TEST(SmallPrecision, DoesNotShowInCellsOfFewSites) {
-    expectTheSameCellsAtAnyPrecision(hard::snapToGrid(hard::uniformSites(65, 65)).set);
-}
-
 TEST(Precision, DoesNotShowInCellsOfSitesThatLieAnyhow) {
-    expectTheSameCellsAtAnyPrecision(hard::snapToGrid(hard::uniformSites(1234, 1234)).set);
+    for (const uint32_t count : {65u, 1234u})
+        expectTheSameCellsAtAnyPrecision(hard::snapToGrid(hard::uniformSites(count, count)).set);
 }
 
 TEST(Precision, DoesNotShowInCellsOfAnySearch) {
