@@ -92,7 +92,7 @@ void expectExactRight(const std::map<Precision, Outcome>& outcomes, size_t sets)
     EXPECT_EQ(outcomes.at(Precision::Exact).right_sets, 2 * sets);
 }
 
-TEST(SmallPrecision, OfHardSitesThatAreFew) { expectExactRight(outcomesOf({7, 16, 24, 25}), 4); }
+TEST(Precision, OfHardSitesThatAreFew) { expectExactRight(outcomesOf({7, 16, 24, 25}), 4); }
 
 // A lattice, a sphere about its center, a plane, a line, a thin slab.
 TEST(Precision, OfHardSites) { expectExactRight(outcomesOf({4, 5, 8, 9, 18}), 5); }
