@@ -28,12 +28,9 @@ void expectTheSameCellsAtAnyPrecision(const reference::SiteSet& set) {
             EXPECT_EQ(wrongCells(expected, cutOnDevice(set, path, precision)), 0u) << nameOf(precision);
 }
 
-TEST(SmallPrecision, DoesNotShowInCellsOfFewSites) {
-    expectTheSameCellsAtAnyPrecision(hard::snapToGrid(hard::uniformSites(65, 65)).set);
-}
-
 TEST(Precision, DoesNotShowInCellsOfSitesThatLieAnyhow) {
-    expectTheSameCellsAtAnyPrecision(hard::snapToGrid(hard::uniformSites(1234, 1234)).set);
+    for (const uint32_t count : {65u, 1234u})
+        expectTheSameCellsAtAnyPrecision(hard::snapToGrid(hard::uniformSites(count, count)).set);
 }
 
 TEST(Precision, DoesNotShowInCellsOfAnySearch) {
@@ -95,7 +92,7 @@ void expectExactRight(const std::map<Precision, Outcome>& outcomes, size_t sets)
     EXPECT_EQ(outcomes.at(Precision::Exact).right_sets, 2 * sets);
 }
 
-TEST(SmallPrecision, OfHardSitesThatAreFew) { expectExactRight(outcomesOf({7, 16, 24, 25}), 4); }
+TEST(Precision, OfHardSitesThatAreFew) { expectExactRight(outcomesOf({7, 16, 24, 25}), 4); }
 
 // A lattice, a sphere about its center, a plane, a line, a thin slab.
 TEST(Precision, OfHardSites) { expectExactRight(outcomesOf({4, 5, 8, 9, 18}), 5); }
