@@ -2,6 +2,7 @@
 #include "modules/brittle/mesh/primitives.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/collided.h"
+#include "tests/support/shared_meshes.h"
 #include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
@@ -273,6 +274,16 @@ TEST(Collider, OfAnUnbrokenObjectIsACompoundOfItsCells) {
     EXPECT_EQ(one->first_piece, 7u);
     EXPECT_EQ(one->piece_count, 1u);
     EXPECT_FALSE(brittle::bodyOf(result.fragments.colliders, whole_body.piece_count));
+}
+
+TEST(LongCollider, OfRealModelsHasNoFlaw) {
+    SKIP_WITHOUT_MESHES();
+    for (const char* name : {"goblet-Vase.stl", "fandisk.off", "cheese.off", "gearwheel.bin.stl", "torus.obj", "trefoil.obj"}) {
+        SCOPED_TRACE(name);
+        const whole::Model model = whole::modelFrom(name);
+        for (const uint32_t count : {12u, 80u})
+            expectColliders(26, model, sites(count));
+    }
 }
 
 TEST(Collider, TakesOnlyTheDirectionsThereAre) {
