@@ -52,6 +52,7 @@ struct Candidate {
 shared ivec4 waiting_d[LANES];
 shared uvec4 waiting_r[LANES]; // bound, depth
 shared uint wanted;
+shared ivec4 normals[SUPPORT_DIRECTIONS / 2]; // of the fixed directions: an array of constants costs its whole length at every look
 
 uint fragment, cell, neighbor_count, parting_count, surface_count, first_direction, lacks;
 uint first_neighbor, first_parting, first_corner, corner_count;
@@ -64,8 +65,15 @@ int64_t fromWords(uint low, uint high) { return int64_t(uint64_t(low) | (uint64_
 
 #include "lib/write_collider.glsl"
 
+void fillNormals(uint lane) {
+    for (uint k = lane; k < SUPPORT_DIRECTIONS / 2; k += LANES) normals[k] = ivec4(kDirections[k], 0);
+    barrier();
+}
+
+ivec3 normalAlong(uint k) { return (k & 1u) == 0u ? normals[k >> 1].xyz : -normals[k >> 1].xyz; }
+
 Plane supportPlane(uint k, uint kind) {
-    ivec3 n = supportDirection(k);
+    ivec3 n = normalAlong(k);
     return Plane(8 * n, BOX_BASE + kind, boundAlong(n, supports[fragment * SUPPORT_DIRECTIONS + k], site));
 }
 
@@ -154,7 +162,7 @@ Candidate surfacePlane(uint k) {
 }
 
 Candidate direction(uint k) {
-    ivec3 n = supportDirection(k);
+    ivec3 n = normalAlong(k);
     int deep = int(length(vec3(n)) * float(shallow));
     return Candidate(supportPlane(k, FACE_DIRECTION), int64_t(deep), true);
 }
@@ -246,6 +254,7 @@ void main() {
     fragment = flatGroup();
     if (fragment >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
     openFragment();
+    fillNormals(lane);
     startSolid(lane);
     cutByAll(lane);
     writeCollider(lane);

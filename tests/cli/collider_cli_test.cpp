@@ -43,7 +43,7 @@ TEST_F(ColliderCli, ReportsWhatItMade) {
     const auto run = shatter("a.glb", {"--collider", "26"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const nlohmann::json report = nlohmann::json::parse(run.out);
-    const nlohmann::json colliders = report["colliders"];
+    const nlohmann::json& colliders = report["colliders"];
     EXPECT_EQ(colliders["pieces"], report["fragments"]);
     EXPECT_GE(colliders["planes"].get<int>(), 4 * report["fragments"].get<int>());
     EXPECT_GT(colliders["volume_excess"].get<double>(), 0);

@@ -52,6 +52,7 @@ bool boxesMeet(const reference::Bounds& a, const reference::Bounds& b) {
 
 void expectApart(const ColliderSet& colliders, const std::vector<Convex>& solids, double tolerance) {
     std::vector<reference::Bounds> bounds;
+    bounds.reserve(solids.size());
     for (const Convex& solid : solids)
         bounds.push_back(boundsOf(solid));
     for (uint32_t a = 0; a < solids.size(); ++a) {

@@ -2,6 +2,7 @@
 #include "modules/brittle/mesh/primitives.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/collided.h"
+#include "tests/support/shared_meshes.h"
 #include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
@@ -53,15 +54,19 @@ ImportedMesh turnedBox(const Double3& lower, const Double3& upper) {
     return box;
 }
 
-// A square ring of four bars about z (or, turned, about x), with its center at `at`.
-ImportedMesh frame(const Double3& at, bool turned) {
-    auto ring = brittle::makeBuiltin("ring");
+// Two rings of a chain: one about z, the other turned, its center in the middle of the first one's tube.
+ImportedMesh twoLinks() {
+    const auto ring = brittle::makeBuiltin("ring");
     EXPECT_TRUE(ring);
-    for (Double3& p : ring->positions) {
-        if (turned) p = {p[1], p[2], p[0]};
-        p = {p[0] + at[0], p[1] + at[1], p[2] + at[2]};
+    double inside = 1e30, outside = 0;
+    for (const Double3& p : ring->positions) {
+        inside = std::min(inside, std::hypot(p[0], p[1]));
+        outside = std::max(outside, std::hypot(p[0], p[1]));
     }
-    return *ring;
+    ImportedMesh other = *ring;
+    for (Double3& p : other.positions)
+        p = {p[1] + (inside + outside) / 2, p[2], p[0]};
+    return *ring + other;
 }
 
 brittle::FractureResult expectColliders(uint32_t directions, const whole::Model& model, const FractureOptions& options) {
@@ -197,22 +202,17 @@ TEST(Collider, PartsIslandsAlongPlanesOfTheirOwn) {
 }
 
 TEST(Collider, ListsIslandsThatNoPlaneParts) {
-    const auto ring = brittle::makeBuiltin("ring");
-    ASSERT_TRUE(ring);
-    double reach = 0;
-    for (const Double3& p : ring->positions)
-        reach = std::max(reach, p[0]);
-    const whole::Model links = whole::modelFrom(frame({0, 0, 0}, false) + frame({2.2 * reach, 0, 0}, false));
-    const auto apart = expectColliders(26, links, given({{0, 0, 0}}));
-    EXPECT_TRUE(apart.fragments.colliders.overlapping.empty());
     const ImportedMesh shell = brittle::makeCube() + support::turnedOver(support::moved(brittle::makeCube(), .8, {0, 0, 0}));
     const whole::Model nested = whole::modelFrom(shell + support::moved(brittle::makeCube(), .5, {0, 0, 0}));
-    const auto within = expectColliders(26, nested, given({{0, 0, 0}}));
-    ASSERT_EQ(within.fragments.fragments.size(), 2u);
-    EXPECT_EQ(within.fragments.colliders.overlapping, (std::vector<std::array<uint32_t, 2>>{{0, 1}}));
+    const whole::Model links = whole::modelFrom(twoLinks());
+    for (const whole::Model* model : {&nested, &links}) {
+        const auto result = expectColliders(26, *model, given({{0, 0, 0}}));
+        ASSERT_EQ(result.fragments.fragments.size(), 2u);
+        EXPECT_EQ(result.fragments.colliders.overlapping, (std::vector<std::array<uint32_t, 2>>{{0, 1}}));
+    }
 }
 
-// 216 islands in one cell are more pieces, and more pairs, than there is room for at first.
+// 343 islands in one cell are more pieces, and more pairs, than there is room for at first.
 TEST(Collider, FindsRoomForManyIslands) {
     ImportedMesh cubes = support::moved(brittle::makeCube(), .5, {0, 0, 0});
     for (int k = 1; k < 343; ++k)
@@ -273,6 +273,16 @@ TEST(Collider, OfAnUnbrokenObjectIsACompoundOfItsCells) {
     EXPECT_EQ(one->first_piece, 7u);
     EXPECT_EQ(one->piece_count, 1u);
     EXPECT_FALSE(brittle::bodyOf(result.fragments.colliders, whole_body.piece_count));
+}
+
+TEST(LongCollider, OfRealModelsHasNoFlaw) {
+    SKIP_WITHOUT_MESHES();
+    for (const char* name : {"goblet-Vase.stl", "fandisk.off", "cheese.off", "gearwheel.bin.stl", "torus.obj", "trefoil.obj"}) {
+        SCOPED_TRACE(name);
+        const whole::Model model = whole::modelFrom(name);
+        for (const uint32_t count : {12u, 80u})
+            expectColliders(26, model, sites(count));
+    }
 }
 
 TEST(Collider, TakesOnlyTheDirectionsThereAre) {
