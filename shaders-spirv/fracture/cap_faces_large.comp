@@ -32,9 +32,14 @@ WRITES(10, uint, cap_counts);
 READS(11, uint, large_faces);
 layout(set = 0, binding = 12, std430) coherent buffer nodes_block { ivec4 nodes[]; }; // x, y, name, state
 layout(set = 0, binding = 13, std430) coherent buffer rings_block { uvec4 rings[]; }; // next, previous, loop, scratch
-layout(set = 0, binding = 14, std430) coherent buffer loops_block { ivec4 loops[]; }; // of a loop's first node: turns left?, rightmost; z: corners that are left
+layout(set = 0, binding = 14, std430) coherent buffer loops_block { ivec4 loops[]; }; // of a loop's first node: turns left?, rightmost
+// While ears are clipped, `loops` has the list of corners to be tested, whether somebody is in the way, the list of those that are
+// left, and who was in the way the last time.
 READS(15, uint, cap_slots);
 #include "lib/cap_plane.glsl"
+
+// Of the 65,535 loop turns that Mesa's software device allows, those for clipping ears.
+const uint kClipTurns = 46000u;
 
 #define DEAD 0
 #define ALIVE 1
@@ -45,7 +50,7 @@ shared uint outers[MAX_LOOPS];
 shared uint holes[MAX_LOOPS];
 shared uint lane_pick[LANES];
 shared int64_t lane_key[LANES];
-shared uint node_total, alive_total, reflex_total, spike_total, cleared, hole_total, outer_total;
+shared uint node_total, alive_total, test_total, reflex_total, spike_total, cleared, hole_total, outer_total;
 shared int round_total;
 
 uint base, slots, plane_u, plane_w;
@@ -404,6 +409,18 @@ bool goesRoundOften(uint lane) {
     return round_total != int(outer_total);
 }
 
+bool entersOther(uint q, uint p, uint k, uint s, uint phase) {
+    bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;
+    ivec2 a = at(p), b = at(k), c = at(s);
+    return other && (phase < 3u ? entersEar(q, a, b, c, phase == 0u) : clearlyIn(a, b, c, at(q)));
+}
+
+// Whether a corner is in the list of those that are looked at, and enters the ear.
+bool isInTheWay(uint q, uint p, uint k, uint s, uint phase, bool wary) {
+    bool listed = live(q) && nextOf(q) != previousOf(q) && (wary || turn(at(previousOf(q)), at(q), at(nextOf(q))) <= 0);
+    return listed && entersOther(q, p, k, s, phase);
+}
+
 uint priorityOf(uint k) { return (k * 0x9e3779b1u) ^ (k >> 7); }
 
 void main() {
@@ -445,14 +462,16 @@ void main() {
     orderHoles(lane);
     bridgeHoles(lane);
 
-    // Of the 65,535 loop turns that Mesa's software device allows: a quarter for looks at reflex corners, a half for the rounds.
-    uint phase = 0u, budget = 16000u, made = 0u, rounds = 30000u / (5u * (node_total / LANES + 1u));
+    uint phase = 0u, made = 0u, budget = kClipTurns, turns = 5u * (node_total / LANES + 1u);
     // Corners that turn left cannot be the first to enter an ear, unless the outline crosses itself.
     bool wary = goesRoundOften(lane), finished = n == 0u;
-    for (uint round = 0u; round < rounds && !finished; round++) {
+    for (uint k = lane; k < node_total; k += LANES) loops[base + k].w = int(k);
+    for (uint round = 0u; round < kClipTurns && !finished && budget > turns; round++) {
+        budget -= turns;
         if (lane == 0u) {
             reflex_total = 0u;
             spike_total = 0u;
+            test_total = 0u;
             alive_total = 0u;
             cleared = 0u;
         }
@@ -482,15 +501,32 @@ void main() {
             // other, while its ears seem to be there twice.
             bool spikes = spike_total != 0u;
             bool nearly = phase == 3u && isEarButForRounding(a, b, c);
-            bool test = (size > 0 || nearly) && phase < 4u && budget > 0u && !spikes;
+            bool test = (size > 0 || nearly) && phase < 4u && !spikes;
             bool ear = spikes ? isSpike(a, b, c) : size > 0 || nearly || (phase >= 2u && size == 0) || phase >= 5u;
-            for (uint r = 0u; r < reflex_total && test && ear; r++) {
-                uint q = reflex_list[r];
-                bool other = q != p && q != k && q != s && rings[base + q].z == rings[base + k].z;
-                ear = !(other && (phase < 3u ? entersEar(q, a, b, c, phase == 0u) : clearlyIn(a, b, c, at(q))));
-                budget -= min(budget, 1u);
+            // Who was in the way the last time still is, most often.
+            if (test && ear && !isInTheWay(uint(loops[base + k].w), p, k, s, phase, wary)) {
+                loops[base + atomicAdd(test_total, 1u)].x = int(k);
+                loops[base + k].y = 0;
+            } else if (ear && !test) {
+                nodes[base + k].w = EAR;
             }
-            if (ear) nodes[base + k].w = EAR;
+        }
+        sync();
+        // All lanes share the looks: where a ring is left between two loops, a few ears are new in a round, and many rounds follow.
+        uint looks = test_total * reflex_total;
+        bool affordable = looks / LANES + 1u < budget;
+        for (uint j = lane; j < looks && affordable; j += LANES) {
+            uint k = uint(loops[base + j / max(reflex_total, 1u)].x), q = reflex_list[j % max(reflex_total, 1u)];
+            if (entersOther(q, previousOf(k), k, nextOf(k), phase)) {
+                loops[base + k].y = 1;
+                loops[base + k].w = int(q);
+            }
+        }
+        budget = affordable ? budget - looks / LANES - 1u : 0u;
+        sync();
+        for (uint c = lane; c < test_total && affordable; c += LANES) {
+            uint k = uint(loops[base + c].x);
+            if (loops[base + k].y == 0) nodes[base + k].w = EAR;
         }
         sync();
         for (uint k = lane; k < node_total; k += LANES) {

@@ -10,6 +10,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
 #include "shared/collider.h"
+#define ALWAYS_EXACT
 #include "lib/exact_cut.glsl"
 
 #define LANES 16

@@ -2,11 +2,17 @@
 // same determinants in floating point and taking the sign of what comes out.
 //
 // One constant decides, and what it leaves out vanishes from the pipeline. Doubles stand in modules of their own, built from the
-// same files with DOUBLES defined, because a device that lacks them takes no module that names them.
+// same files with DOUBLES defined, because a device that lacks them takes no module that names them. ALWAYS_EXACT is for what has
+// no other precision.
 #ifndef PRECISION_GLSL
 #define PRECISION_GLSL
 
-#ifdef DOUBLES
+#if defined(ALWAYS_EXACT)
+#define real float
+#define real3 vec3
+const bool kExact = true;
+const bool kFast = false;
+#elif defined(DOUBLES)
 #define real double
 #define real3 dvec3
 const bool kExact = false;
