@@ -122,7 +122,7 @@ TEST_F(Cli, CapsOfAConvexModelInAnother) {
     const Outcome right = runProgram("brittle", {"shatter", "builtin:cube", "-o", path("a.glb"), "--caps", "convex"});
     EXPECT_EQ(right.exit_code, 0) << right.err;
     const Outcome wrong = runProgram("brittle", {"shatter", "builtin:ring", "-o", path("b.glb"), "--caps", "convex"});
-    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_EQ(wrong.exit_code, 2);
     EXPECT_NE(wrong.err.find("turned over; nothing was written; the model is not convex where it was cut: use --caps exact"),
               std::string::npos)
         << wrong.err;
@@ -156,6 +156,8 @@ TEST_F(Cli, BadUsageIsRefused) {
     expectRefused({"shatter", "builtin:cube", "--cells", "corners"}, 2);
     for (const char* search : {"linear", "sphere_tree"})
         expectRefused({"shatter", "builtin:cube", "--cells", "edges", "--search", search}, 2);
+    expectRefused({"shatter", "builtin:cube", "--strength", "5"}, 2);
+    expectRefused({"shatter", "builtin:cube", "--at", "0,0,0", "--pattern", "uniform"}, 2);
     expectRefused({"shatter", "builtin:nothing"}, 2);
     expectRefused({"shatter", path("missing.obj")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);
@@ -178,7 +180,7 @@ TEST_F(Cli, LessThanExactPrecisionWorksOrSaysWhatDoes) {
                                                     path("lattice.txt"), "--precision", precision});
         EXPECT_EQ(std::filesystem::exists(path("tied.glb")), tied.exit_code == 0);
         if (tied.exit_code == 0) continue;
-        EXPECT_TRUE(tied.exit_code == 1 || tied.exit_code == 3) << tied.exit_code << tied.err;
+        EXPECT_TRUE(tied.exit_code == 2 || tied.exit_code == 3) << tied.exit_code << tied.err;
         EXPECT_NE(tied.err.find("exact"), std::string::npos) << tied.err;
     }
 }

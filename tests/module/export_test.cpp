@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <filesystem>
@@ -148,9 +149,22 @@ TEST(OutputFile, IsThereWholeOrNotAtAll) {
     EXPECT_EQ(contentOf(folder / "a.glb"), "whole"); // what was there before stays
 }
 
+TEST(OutputFile, ReplacesWhatALinkLeadsTo) {
+    const Folder folder;
+    std::ofstream(folder / "a.glb") << "before";
+    std::filesystem::create_symlink(folder / "a.glb", folder / "link.glb");
+    auto file = OutputFile::create(folder / "link.glb");
+    ASSERT_TRUE(file && file->write("after") && file->commit());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.glb"));
+    EXPECT_EQ(contentOf(folder / "a.glb"), "after");
+}
+
 TEST(OutputFile, SaysAtOnceWhereNothingCanBeWritten) {
     const Folder folder;
     EXPECT_FALSE(OutputFile::create(folder / "no/such/folder.glb"));
     EXPECT_FALSE(OutputFile::create(folder / "."));
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_FALSE(OutputFile::create(folder / "pipe"));
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
     EXPECT_FALSE(OutputFile::create(""));
 }

@@ -175,6 +175,18 @@ TEST(FractureThin, WhatIsFlatOnTheGridOfTheEventIsRefused) {
     EXPECT_NE(result.error().message.find("flat on the grid of the event"), std::string::npos);
 }
 
+// Along the diagonal of their box, of which they fill a ten-thousandth.
+TEST(FractureThin, SitesFindTheirPlacesInRodsAtAnAngle) {
+    for (const double thickness : {0x1p-4, 0x1p-7}) { // floats hold them as they are
+        brittle::ImportedMesh rod = boxOf({0, 0, 0}, {1, thickness, thickness});
+        for (Double3& p : rod.positions) {
+            const double a = p[0] - p[1], b = p[0] + p[1];
+            p = {a - p[2], b - p[2] / 2, p[0] + 1.5 * p[2]};
+        }
+        expectContractOf(modelFrom(rod), {1, 20, 200});
+    }
+}
+
 // Off the grid in all directions: films are wedges then, up to hundreds of steps.
 TEST(FractureThin, PlatesAtAnAngle) {
     for (const double thickness : {1e-1, 1e-2}) {

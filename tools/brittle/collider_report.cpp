@@ -1,5 +1,7 @@
 #include "tools/brittle/collider_report.h"
 
+#include "modules/brittle/mesh/format.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -32,20 +34,17 @@ Summary summaryOf(const brittle::FragmentSet& set) {
 nlohmann::ordered_json collidersJson(const brittle::FragmentSet& fragments) {
     const Summary summary = summaryOf(fragments);
     const brittle::ColliderSet& set = fragments.colliders;
-    return {{"pieces", set.pieces.size()},
-            {"planes", set.faces.size()},
-            {"vertices", set.vertices.size()},
-            {"volume_excess", summary.volume_excess},
-            {"overlapping_pairs", set.overlapping.size()},
-            {"lack_planes", summary.looser},
+    return {{"pieces", set.pieces.size()},          {"planes", set.faces.size()},
+            {"vertices", set.vertices.size()},      {"volume_excess", summary.volume_excess},
+            {"overlapping_pairs", set.overlapping}, {"lack_planes", summary.looser},
             {"may_reach_out", summary.reaching}};
 }
 
 void printColliders(const brittle::FragmentSet& fragments) {
     const Summary summary = summaryOf(fragments);
     const brittle::ColliderSet& set = fragments.colliders;
-    std::printf("colliders  %zu with %zu planes, %.3g %% larger than the fragments, %zu pairs overlap\n", set.pieces.size(),
-                set.faces.size(), 100 * summary.volume_excess, set.overlapping.size());
+    std::printf("colliders  %zu with %zu planes, %.3g %% larger than the fragments, %s\n", set.pieces.size(), set.faces.size(),
+                100 * summary.volume_excess, brittle::formatCount(set.overlapping.size(), "overlapping pair").c_str());
 }
 
 } // namespace cli

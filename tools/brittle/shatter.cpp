@@ -17,6 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of volume over area times size, for a plate or rod of a hundredth: below, rounding of corners shows in the volume.
+constexpr double kThin = 4e-3;
+
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -36,7 +39,7 @@ private:
     engine::Result<void> openDevice();
     engine::Result<void> breakModel();
     engine::Result<void> verify();
-    std::string advice() const;
+    engine::Error brokenContract(const std::string& violation) const;
     engine::Result<void> writeFragments();
     engine::Result<void> writePicture();
     engine::Result<void> commitOutputs();
@@ -168,10 +171,17 @@ engine::Result<void> Run::breakModel() {
     return {};
 }
 
-std::string Run::advice() const {
-    if (options_.precision != brittle::Precision::Exact) return "use --precision exact";
-    if (options_.caps == brittle::Caps::Convex) return "the model is not convex where it was cut: use --caps exact";
-    return "move the sites a little, and please report it";
+// Where an option asked for less than what is always right, or the model for more than floats can hold, that is what to change.
+engine::Error Run::brokenContract(const std::string& violation) const {
+    const brittle::MeshMeasures& m = outcome_.model.measures;
+    const bool rounded = options_.precision != brittle::Precision::Exact, convex = options_.caps == brittle::Caps::Convex;
+    std::string advice = "move the sites a little, and please report it";
+    if (m.volume < kThin * m.area * m.diagonal)
+        advice = "a model as thin as this must lie along the axes, for floats to hold it";
+    if (convex) advice = "the model is not convex where it was cut: use --caps exact";
+    if (rounded) advice = convex ? "use --precision exact and --caps exact" : "use --precision exact";
+    return {rounded || convex ? engine::ErrorCode::BadInput : engine::ErrorCode::Internal,
+            "the fragments break their contract: " + violation + "; nothing was written; " + advice};
 }
 
 // Always: a wrong result is no result. --verify says in words what was found.
@@ -180,8 +190,7 @@ engine::Result<void> Run::verify() {
     outcome_.contract = brittle::verifyContract(model_->mesh, outcome_.model.measures, result.fragments, result.sites);
     const std::string violation = outcome_.contract.violation();
     if (violation.empty()) return {};
-    return aboutModel({engine::ErrorCode::Internal,
-                       "the fragments break their contract: " + violation + "; nothing was written; " + advice()});
+    return aboutModel(brokenContract(violation));
 }
 
 engine::Result<void> Run::writeFragments() {

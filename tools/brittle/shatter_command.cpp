@@ -111,6 +111,22 @@ const std::map<std::string, brittle::Precision> kPrecisions = {
 
 const std::map<std::string, brittle::Caps> kCaps = {{"exact", brittle::Caps::Exact}, {"convex", brittle::Caps::Convex}};
 
+// Takes one of the names; CLI11's own says so in terms of its tables.
+template <class Value>
+CLI::Validator oneOf(const std::map<std::string, Value>& names) {
+    return {[&names](std::string& text) {
+                if (const auto found = names.find(text); found != names.end()) {
+                    text = std::to_string(static_cast<uint32_t>(found->second));
+                    return std::string();
+                }
+                std::string all;
+                for (const auto& [name, ignored] : names)
+                    all += (all.empty() ? "" : ", ") + name;
+                return "\"" + text + "\" is none of " + all;
+            },
+            ""};
+}
+
 // CLI11 takes -1 for the largest number, and what is too large for it as well.
 std::string wholeNumber(const std::string& text) {
     uint64_t number = 0;
@@ -141,7 +157,7 @@ void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& option
         command
             .add_option("--pattern", options->pattern,
                         "where sites are placed: uniform, impact or paper; with --at impact if not said otherwise")
-            ->transform(CLI::CheckedTransformer(kPatterns).description(""))
+            ->transform(oneOf(kPatterns))
             ->option_text("NAME [uniform]");
     command
         .add_option_function<std::string>(
@@ -180,29 +196,29 @@ void addShatter(CLI::App& app, int& exit_code) {
         ->check(someText);
     addPattern(*command, options);
     command->add_option("--search", options->search, "how cells find their neighbors: auto, linear, sphere_tree or grid")
-        ->transform(CLI::CheckedTransformer(kSearches).description(""))
+        ->transform(oneOf(kSearches))
         ->option_text("NAME [auto]");
     command
         ->add_option("--caps", options->caps, "how cut faces are made: exact, or convex, which is faster and for convex models")
-        ->transform(CLI::CheckedTransformer(kCaps).description(""))
+        ->transform(oneOf(kCaps))
         ->option_text("NAME [exact]");
     command
         ->add_option(
             "--cells", options->cells,
             "how cells are spread over the device: auto, lanes (a lane a cell) or edges (a lane an edge, as in the paper)")
-        ->transform(CLI::CheckedTransformer(kMappings).description(""))
+        ->transform(oneOf(kMappings))
         ->option_text("NAME [auto]");
     command
         ->add_option("--precision", options->precision,
                      "of the decisions: exact, double or fast; what is not exact may fail its check, and then writes nothing")
-        ->transform(CLI::CheckedTransformer(kPrecisions).description(""))
+        ->transform(oneOf(kPrecisions))
         ->option_text("NAME [exact]");
     CLI::Option* collider =
         command
             ->add_option(
                 "--collider", options->collider,
                 "also make a convex piece to collide with for every fragment, from so many directions: none, 6, 14, 26 or 62")
-            ->transform(CLI::CheckedTransformer(kColliders).description(""))
+            ->transform(oneOf(kColliders))
             ->option_text("DIRECTIONS [none]");
     command->add_option("--collider-picture", options->collider_picture, "draw the colliders into this PNG file")
         ->needs(collider)
@@ -222,7 +238,13 @@ void addShatter(CLI::App& app, int& exit_code) {
                      "lanes of a workgroup, a power of two from 8 to 256; the fragments are the same")
         ->check(groupSize)
         ->option_text("N [64]");
-    command->callback([options, &exit_code] { exit_code = runShatter(*options); });
+    command->callback([command, options, &exit_code] {
+        const bool aimed = options->pattern != brittle::Pattern::Uniform;
+        for (const char* name : {"--at", "--strength"})
+            if (command->get_option(name)->count() > 0 && !aimed)
+                throw CLI::ValidationError(name, "says nothing to sites that are placed uniformly; ask for --pattern impact");
+        exit_code = runShatter(*options);
+    });
 }
 
 } // namespace cli

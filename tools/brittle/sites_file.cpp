@@ -21,8 +21,8 @@ engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& p
     };
     std::error_code unreadable;
     const std::filesystem::file_status status = std::filesystem::status(path, unreadable);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        return bad("not a file; give the name of a text file with a site a line");
+    if (!std::filesystem::exists(status)) return bad("cannot be opened; check the name");
+    if (!std::filesystem::is_regular_file(status)) return bad("not a file; give the name of a text file with a site a line");
     if (std::filesystem::file_size(path, unreadable) > kMostBytes) return bad("larger than 1 GiB; leave sites out");
     std::ifstream file(path, std::ios::binary);
     if (!file) return bad("cannot be opened; check the name");

@@ -34,10 +34,15 @@ engine::Result<OutputFile> OutputFile::create(const std::filesystem::path& path)
     std::error_code error;
     if (!path.has_filename()) return cannotWrite(path, "it has no name");
     if (std::filesystem::is_directory(path, error)) return cannotWrite(path, "it is a folder");
-    std::filesystem::path temporary = path;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return cannotWrite(path, "it is a device, a pipe or the like, no file");
+    // The file that a link leads to is replaced, not the link.
+    const std::filesystem::path place = std::filesystem::exists(status) ? std::filesystem::canonical(path, error) : path;
+    std::filesystem::path temporary = place;
     temporary += ".part" + std::to_string(getpid());
     if (!std::ofstream(temporary, std::ios::binary)) return cannotWrite(path, "no such folder, or no permission");
-    return OutputFile(path, temporary);
+    return OutputFile(place, temporary);
 }
 
 engine::Result<void> OutputFile::write(std::string_view bytes) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSitesPerBin = 2.0;
 constexpr double kLeastShare = 1.0 / 32; // of the bins that sites fall into: finer ones are not made
-constexpr double kFarthestSite = 256.0;  // in half diagonals of the mesh's box
+constexpr double kFarthestSite = 256.0;  // from the mesh's center, in its farthest coordinates: halves of its size
 
 Int3 snapVertex(const EventGrid& grid, const Float3& p) { return snapToGrid(grid, {p[0], p[1], p[2]}); }
 
@@ -22,8 +22,8 @@ engine::Result<double> farthestSite(std::span<const Double3> sites, double mesh_
         for (double x : sites[k]) {
             if (!std::isfinite(x) || std::fabs(x) > kFarthestSite * mesh_reach)
                 return engine::Error{engine::ErrorCode::BadInput,
-                                     "site " + std::to_string(k) + " is not finite or lies more than " +
-                                         std::to_string(static_cast<int>(kFarthestSite)) +
+                                     "site " + std::to_string(k + 1) + " of those given is not finite or lies more than " +
+                                         std::to_string(static_cast<int>(kFarthestSite / 2)) +
                                          " times the model's size away; remove it or move it closer"};
             reach = std::max(reach, std::fabs(x));
         }

@@ -92,8 +92,9 @@ private:
         return static_cast<uint32_t>(std::min<uint64_t>(fit, 1u << 28)) / 256 * 256;
     }
     static engine::Error advised(engine::Error error, Precision precision) {
-        if (precision != Precision::Exact && error.code != engine::ErrorCode::BadInput)
-            error.message += "; at precision " + std::string(nameOf(precision)) + " signs may be wrong, use exact";
+        if (precision == Precision::Exact || error.code == engine::ErrorCode::BadInput) return error;
+        if (error.code == engine::ErrorCode::Internal) error.code = engine::ErrorCode::BadInput; // it was asked for
+        error.message += "; at precision " + std::string(nameOf(precision)) + " that may come of wrong signs: use exact";
         return error;
     }
     static bool aboutImpact(const FractureOptions& options) {
@@ -116,7 +117,7 @@ private:
             if (!(std::fabs(x) <= 16 * reach))
                 return engine::Error{
                     engine::ErrorCode::BadInput,
-                    "the impact is not finite or lies more than 16 times the model's size away; move it closer"};
+                    "the impact is not finite or lies more than 8 times the model's size away; move it closer"};
         if (!(impact.contact_radius >= 0) || !(impact.favor >= 0))
             return engine::Error{engine::ErrorCode::BadInput, "an impact's strength is negative or no number"};
         return {};

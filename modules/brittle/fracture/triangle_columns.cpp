@@ -51,10 +51,11 @@ using Range = std::pair<int32_t, int32_t>; // first and last
 struct Raster {
     Int3 origin;
     int32_t edge, nx, ny;
+    int64_t few_columns;
 
-    Raster(const EventGrid& of, int32_t length)
+    Raster(const EventGrid& of, int32_t length, int64_t few = kFewColumns)
         : origin(of.mesh_low), edge(length), nx((of.mesh_high[0] - of.mesh_low[0]) / length + 1),
-          ny((of.mesh_high[1] - of.mesh_low[1]) / length + 1) {}
+          ny((of.mesh_high[1] - of.mesh_low[1]) / length + 1), few_columns(few) {}
 
     int64_t columns() const { return int64_t{nx} * ny; }
     size_t columnOf(int32_t x, int32_t y) const {
@@ -65,7 +66,7 @@ struct Raster {
     void cover(const std::array<Int3, 3>& corners, Visit visit) const {
         const auto [x0, x1] = columnsAlong(corners, 0);
         const auto [y0, y1] = columnsAlong(corners, 1);
-        if (int64_t{x1 - x0 + 1} * (y1 - y0 + 1) > kFewColumns) return coverOutline(corners, {y0, y1}, visit);
+        if (int64_t{x1 - x0 + 1} * (y1 - y0 + 1) > few_columns) return coverOutline(corners, {y0, y1}, visit);
         const auto [low, high] = spanOf(corners, 2);
         for (int32_t y = y0; y <= y1; y++)
             for (int32_t x = x0; x <= x1; x++)
@@ -176,7 +177,7 @@ Survey fineEnough(const Corners& triangles, const EventGrid& grid, Survey survey
     const uint64_t most = std::max(kEntriesATriangle * triangles.size(), kEntriesAnyway);
     double room = survey.room();
     while (survey.raster.edge > 1 && 4 * survey.raster.columns() <= kMostColumns && room > wanted) {
-        Survey finer(triangles, Raster(grid, (survey.raster.edge + 1) / 2), most);
+        Survey finer(triangles, Raster(grid, (survey.raster.edge + 1) / 2, 1), most); // every triangle as it lies
         if (!finer.whole || finer.room() > kWorthwhile * room) break;
         room = finer.room();
         survey = std::move(finer);

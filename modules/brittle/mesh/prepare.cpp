@@ -34,6 +34,10 @@ engine::Result<Box> boxOfUsed(const ImportedMesh& imported, const std::vector<ch
     const double diagonal = box.diagonal();
     if (!(diagonal >= kMinDiagonal && diagonal <= kMaxDiagonal))
         return badMesh("the model is " + formatNumber(diagonal) + " units large; scale it to between 1e-10 and 1e10");
+    const double away = length(0.5 * (box.lower + box.upper));
+    if (away > kFarthestModel * diagonal)
+        return badMesh("the model is " + formatNumber(diagonal) + " units large and " + formatNumber(away) +
+                       " from the origin, too far for its coordinates; move it closer");
     return box;
 }
 

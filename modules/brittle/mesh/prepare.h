@@ -7,6 +7,8 @@
 namespace brittle {
 
 // The grid of an event takes any size; volumes, cubes of lengths, stay clear of the ends of float.
+// Farther from the origin than so many diagonals doubles are too coarse for the model, and for sites in it.
+constexpr double kFarthestModel = 2e10;
 constexpr double kMinDiagonal = 1e-10, kMaxDiagonal = 1e10;
 
 // What was done to the mesh on the way, for the doctor.
