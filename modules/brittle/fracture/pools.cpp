@@ -84,7 +84,9 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.nodes = std::min(2 * c.segments, std::max(1u << 18, c.segments / 2));
     c.caps = size(0.62 * c.segments + 1024);
     c.flap_sides = size(c.caps / 4.0 + 4096);
+    // Where they are to be expected an event that found out would only be made twice.
     c.rare.exact_cells = site_count > 256;
+    c.rare.flaps = site_count > 256 || c.triangles > 8192;
     c.pieces = c.triangles + c.fans + 2 * c.caps;
     c.components = size(std::min<double>(c.pieces, 6 * n + 0.1 * c.triangles + 16384));
     c.fragments = c.components;
