@@ -29,7 +29,7 @@ void Recorder::scan(Length length, engine::BufferView values, engine::BufferView
                      second = four_channels ? "scan_apply4" : "scan_apply";
     if (length.count == NO_INDEX) {
         uint32_t blocks = (length.known + SCAN_BLOCK - 1) / SCAN_BLOCK;
-        runGroups(first, blocks, reduce, {counts_, values, sums});
+        if (blocks > 1) runGroups(first, blocks, reduce, {counts_, values, sums}); // the first block looks at no sums
         runGroups(second, blocks, apply, {counts_, values, sums, offsets, args_});
     } else {
         runGroups(first, blocksOf(length.count), reduce, {counts_, values, sums});
