@@ -12,7 +12,9 @@ WRITES(4, uvec4, demands);  // fragment, triangles
 WRITES(5, uvec4, shares);   // two each: triangles of every class before this component's in its fragment; of the whole fragment
 READS(6, uint, parts);       // by owner
 READS(7, uint, part_owners);
-#include "lib/parts_of.glsl"
+#define SORTED part_owners
+#define SORTED_COUNT COUNT_PARTS
+#include "lib/sorted_list.glsl"
 
 uvec3 sizeOf(uint c) { return class_offsets[component_start[c + 1u]].xyz - class_offsets[component_start[c]].xyz; }
 
@@ -22,7 +24,7 @@ void main() {
     uvec2 fate = fates[c];
     bool part = fate.x == FATE_CAVITY;
     uvec3 total = sizeOf(fate.y), before = part ? total : uvec3(0u);
-    uint first = firstPartFrom(fate.y), last = firstPartFrom(fate.y + 1u);
+    uint first = firstFrom(fate.y), last = firstFrom(fate.y + 1u);
     if (last - first > MOST_TURNS) atomicOr(counts[STATUS_BAD_UNION], 1u);
     last = min(last, first + MOST_TURNS);
     for (uint k = first; k < last; k++) {

@@ -11,13 +11,15 @@ READS(2, uint, islands);
 READS(3, uint, pair_offsets);
 READS(4, uint, pair_slots);
 WRITES(5, uvec2, parting_ranges); // by fragment: first one, how many; NO_INDEX where it is alone
-#include "lib/islands_of.glsl"
+#define SORTED island_cells
+#define SORTED_COUNT COUNT_FRAGMENTS
+#include "lib/sorted_list.glsl"
 
 void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
     uint cell = island_cells[k], pairs = counts[COUNT_ISLAND_PAIRS];
-    uint first = pair_offsets[firstIslandFrom(cell)], last = pair_offsets[firstIslandFrom(cell + 1u)];
+    uint first = pair_offsets[firstFrom(cell)], last = pair_offsets[firstFrom(cell + 1u)];
     bool is_alone = first == last;
     uint from = is_alone ? 0u : pair_slots[min(first, pairs)], until = is_alone ? 0u : pair_slots[min(last, pairs)];
     parting_ranges[islands[k]] = is_alone ? uvec2(NO_INDEX, 0u) : uvec2(from, until - from);

@@ -20,7 +20,9 @@ WRITES(9, ObjectState, objects);
 READS(10, uint, parts); // by owner
 READS(11, uint, part_owners);
 layout(push_constant) uniform Push { float model_unit; }; // of the records, in model units
-#include "lib/parts_of.glsl"
+#define SORTED part_owners
+#define SORTED_COUNT COUNT_PARTS
+#include "lib/sorted_list.glsl"
 
 void draw(uint at, uint count, uint first, uint vertex) {
     draw_commands[at] = DrawCommand(count, count > 0u ? 1u : 0u, first, int(vertex), at);
@@ -41,7 +43,7 @@ void addMomentsAbout(vec3 center, inout FragmentRecord sum, FragmentRecord part)
 }
 
 FragmentRecord withParts(uint c, FragmentRecord r) {
-    uint first = firstPartFrom(c), last = firstPartFrom(c + 1u);
+    uint first = firstFrom(c), last = firstFrom(c + 1u);
     vec4 measure = r.measure, lost_measure = vec4(0.0), moment = r.measure.x * r.balance, lost_moment = vec4(0.0);
     for (uint k = first; k < last; k++) {
         FragmentRecord part = records[parts[k]];

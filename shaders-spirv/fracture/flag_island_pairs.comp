@@ -15,7 +15,9 @@ READS(3, uint, pair_offsets);
 READS(4, int, supports);
 WRITES(5, uvec2, island_pairs);
 WRITES(6, uint, flags);
-#include "lib/islands_of.glsl"
+#define SORTED island_cells
+#define SORTED_COUNT COUNT_FRAGMENTS
+#include "lib/sorted_list.glsl"
 
 // The island to which pair p belongs: the last one whose pairs begin no later, of which it has some.
 uint islandOf(uint p) {
@@ -43,7 +45,7 @@ bool boxesApart(uint f, uint g) {
 void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_ISLAND_PAIRS] || counts[STATUS_FAILED] != 0u) return;
-    uint k = islandOf(p), first = firstIslandFrom(island_cells[k]);
+    uint k = islandOf(p), first = firstFrom(island_cells[k]);
     uvec2 pair = uvec2(islands[first + p - pair_offsets[k]], islands[k]);
     island_pairs[p] = pair;
     flags[p] = boxesApart(pair.x, pair.y) ? 0u : 1u;
