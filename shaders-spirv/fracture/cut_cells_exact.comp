@@ -17,7 +17,7 @@
 #include "lib/exact_cut.glsl"
 
 #ifndef LANES
-#define LANES 64
+#define LANES 16 // a cell has a few dozen corners
 #define PLANES 64
 #define CORNERS 112
 #endif
