@@ -9,10 +9,11 @@
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, ivec4, bin_sites); // position and id, bin by bin
 WRITES(2, uint, raw);
 WRITES(3, uvec2, cell_raw);
+WRITES(4, uint, queue); // cells that are left to the exact kernel
 layout(push_constant) uniform Push {
     ivec4 bins; // w: edge of a bin
     ivec4 box_low;
@@ -27,12 +28,12 @@ layout(push_constant) uniform Push {
 #ifdef SEARCH_LINEAR
 #include "lib/search_linear.glsl"
 #elif defined(SEARCH_TREE)
-READS(4, uvec4, tree);
-READS(5, uint, leaf_start);
-READS(6, uint, leaf_sites);
+READS(5, uvec4, tree);
+READS(6, uint, leaf_start);
+READS(7, uint, leaf_sites);
 #include "lib/search_tree.glsl"
 #else
-READS(4, uint, bin_start);
+READS(5, uint, bin_start);
 #include "lib/search_grid.glsl"
 #endif
 

@@ -9,12 +9,13 @@
 #define SIEVE_CORNERS RAW_CORNERS
 
 GROUP_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, ivec4, sites);     // by id
 READS(2, uint, bin_start);  // grid of bins, x fastest
 READS(3, ivec4, bin_sites); // position and id, bin by bin
 WRITES(4, uint, raw);
 WRITES(5, uvec2, cell_raw);
+WRITES(6, uint, queue); // cells that are left to the exact kernel
 layout(push_constant) uniform Push {
     ivec4 bins; // w: edge of a bin
     ivec4 box_low;
@@ -80,6 +81,7 @@ void writeCell(uint lane) {
     if (lane == 0u) {
         cell_raw[self] = uvec2(base, 0u);
         raw[base] = open != 0u ? CELL_OPEN | (open << 8) : status;
+        if (!ok || open != 0u) queue[atomicAdd(counts[COUNT_EXACT_SMALL], 1u)] = self;
         raw[base + 1u] = (ok && open == 0u ? bounding : planes) | (corners << 16);
     }
 }

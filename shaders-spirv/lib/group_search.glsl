@@ -7,8 +7,8 @@
 // Wants LANES, SIEVE_CORNERS and bin_start, bin_sites, sites and the push constants bins and box_low declared; of the cell
 // corner_place[k]: w in fp32, and how far it may be off (lib/filter_bounds.glsl); and sync().
 #include "lib/bin_lines.glsl"
+#include "lib/sum_before.glsl"
 
-#define SUM_STEPS (LANES > 256 ? 5 : (LANES > 64 ? 4 : 3)) /* powers of four up to LANES */
 #define LIST_SIZE (LANES > 512 ? 2 * LANES : 1024)
 #define WAITING 0x80000000u /* in a key: touches only corners in question */
 
@@ -18,7 +18,6 @@ const uint kTurnBudget = 56000u;
 
 shared uint list_key[LIST_SIZE];
 shared uint list_site[LIST_SIZE];
-shared uint lane_sum[LANES];
 shared uint line_first[LANES];
 shared uint line_end[LANES];
 shared uint list_count, best_key, best_site, best_slot, reach_bits, removed_count, open_count;
@@ -57,23 +56,6 @@ void measureReach(uint lane) {
     atomicMax(reach_bits, reach);
     sync();
     spend(turns);
-}
-
-// Sum over the lanes before this one; lane_sum holds the sums with this one.
-uint sumBefore(uint lane, uint value) {
-    lane_sum[lane] = value;
-    sync();
-    // Four-way: half the steps of the usual doubling, each with three terms.
-    [[unroll]] for (uint k = 0u; k < SUM_STEPS; k++) {
-        uint step = 1u << (2u * k);
-        uint left = lane >= step ? lane_sum[lane - step] : 0u;
-        left += lane >= 2u * step ? lane_sum[lane - 2u * step] : 0u;
-        left += lane >= 3u * step ? lane_sum[lane - 3u * step] : 0u;
-        sync();
-        lane_sum[lane] += left;
-        sync();
-    }
-    return lane_sum[lane] - value;
 }
 
 // The key under which a candidate is listed, a candidate a lane. The cell only shrinks, so NO_INDEX is for good.

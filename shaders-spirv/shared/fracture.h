@@ -116,6 +116,7 @@
 #define MOST_LINEAR_SITES 100000u /* that a lane can go through twice, LINEAR_AT_ONCE a turn */
 #define LINEAR_AT_ONCE 8u
 #define MOST_TREE_LEVELS 24u
+#define FEW_SITES 1024 /* that one workgroup sorts in shared memory, into as many bins */
 #define TRIES_A_ROUND 512u /* to place a site inside the mesh */
 
 // Sides of a clipped polygon; one that outgrows the usual number has the event done again with the larger.

@@ -174,16 +174,15 @@ RawCells cutRaw(const SiteSet& set, Path path, brittle::Precision precision) {
         const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
         if (path == Path::FilteredEdges)
             commands.dispatchGroups(cutter("cut_cells_edges"), n, EdgesPush{push.bins, push.box_low, push.box_high, n},
-                                    {counts.words, sites, bin_start, bin_sites, result.raw, result.at});
+                                    {counts.words, sites, bin_start, bin_sites, result.raw, result.at, queue});
         else if (path == Path::FilteredLinear)
-            commands.dispatch(cutter("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at});
+            commands.dispatch(cutter("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at, queue});
         else if (tree)
             commands.dispatch(
                 cutter("cut_cells_tree"), n, push,
-                {counts.words, bin_sites, result.raw, result.at, tree->nodes, tree->leaf_start, tree->leaf_sites});
+                {counts.words, bin_sites, result.raw, result.at, queue, tree->nodes, tree->leaf_start, tree->leaf_sites});
         else
-            commands.dispatch(cutter("cut_cells"), n, push, {counts.words, bin_sites, result.raw, result.at, bin_start});
-        commands.dispatch(kernel("queue_cells"), n, n, {counts.words, result.raw, queue});
+            commands.dispatch(cutter("cut_cells"), n, push, {counts.words, bin_sites, result.raw, result.at, queue, bin_start});
     };
     const auto exact = [&](engine::Commands& commands, uint32_t k, const SizeClass& size) {
         const CutPush push = cutPush(set, binned, k, path);

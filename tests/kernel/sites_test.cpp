@@ -16,7 +16,7 @@ using brittle::FractureOptions;
 using brittle::PreparedMesh;
 using reference::GridPoint;
 
-constexpr uint32_t kCounts[] = {1, 63, 64, 65, 1234};
+constexpr uint32_t kCounts[] = {1, 63, 64, 65, FEW_SITES, FEW_SITES + 1}; // few are sorted by one workgroup
 
 std::vector<GridPoint> placedIn(const PreparedMesh& solid, uint32_t count, uint64_t seed) {
     const DeviceEvent event(solid, {count, seed, {}}, Until::Sites);

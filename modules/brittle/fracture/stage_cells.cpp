@@ -35,20 +35,19 @@ CutPush cutPush(const Event& e, uint32_t size_class) {
             next[size_class]};
 }
 
-// One size class; what it cannot hold is queued for the next.
-void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t size_class) {
+// The queue of one size class; what it cannot hold is queued for the next, which is recorded once an event has met such cells.
+void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t size_class, uint32_t capacity) {
     const auto& b = e.b;
     if (!recorded) return;
+    e.record.publish(COUNT_EXACT_SMALL + size_class, capacity);
     e.record.runGroups(name, e.record.groupsOf(COUNT_EXACT_SMALL + size_class), cutPush(e, size_class),
                        {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
-    if (size_class < 2)
-        e.record.publish(COUNT_EXACT_MEDIUM + size_class, size_class == 0 ? e.capacity.exact_medium : e.capacity.exact_large);
 }
 
 void recordEdges(const Event& e, const EdgesPush& push) {
     const auto& b = e.b;
     e.record.runGroups("cut_cells_edges", e.record.groupsOf(COUNT_SITES), push,
-                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.raw, b.cell_raw});
+                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.raw, b.cell_raw, b.queue});
 }
 
 void recordFiltered(const Event& e, const FastPush& push) {
@@ -57,11 +56,13 @@ void recordFiltered(const Event& e, const FastPush& push) {
     const Length sites = Length::of(e.capacity.sites);
     switch (e.search) {
     case Search::Linear:
-        return e.record.run("cut_cells_linear", sites, push, {e.record.counts(), b.bin_sites, b.raw, b.cell_raw});
+        return e.record.run("cut_cells_linear", sites, push, {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue});
     case Search::SphereTree:
         return e.record.run("cut_cells_tree", sites, push,
-                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.tree, b.leaf_start, b.leaf_sites});
-    default: return e.record.run("cut_cells", sites, push, {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.bin_start});
+                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, b.tree, b.leaf_start, b.leaf_sites});
+    default:
+        return e.record.run("cut_cells", sites, push,
+                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, b.bin_start});
     }
 }
 
@@ -75,11 +76,10 @@ void recordCutting(const Event& e) {
                      e.capacity.sites,
                      e.turn_budget};
     recordFiltered(e, fast);
-    e.record.run("queue_cells", Length::of(e.capacity.sites), e.capacity.sites, {e.record.counts(), b.raw, b.queue});
-    e.record.publish(COUNT_EXACT_SMALL, e.capacity.sites);
-    recordExact(e, "cut_cells_exact", e.capacity.rare.exact_cells, 0);
-    recordExact(e, "cut_cells_exact_medium", e.capacity.rare.medium_cells, 1);
-    recordExact(e, "cut_cells_exact_large", e.capacity.rare.large_cells, 2);
+    const Capacities& c = e.capacity;
+    recordExact(e, "cut_cells_exact", c.rare.exact_cells, 0, c.sites);
+    recordExact(e, "cut_cells_exact_medium", c.rare.medium_cells, 1, c.exact_medium);
+    recordExact(e, "cut_cells_exact_large", c.rare.large_cells, 2, c.exact_large);
 }
 
 namespace {

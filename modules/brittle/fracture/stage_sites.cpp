@@ -101,6 +101,16 @@ void recordBinning(const Event& e) {
                  {e.record.counts(), e.b.sites, e.b.bin_start, e.b.loose_sites, e.b.bin_sites});
 }
 
+void recordFewSites(const Event& e) {
+    struct Push {
+        Int4 bins, low;
+        uint32_t site_count;
+    } push = {e.grid.bins, withLast(e.grid.box_low, 0), e.capacity.sites};
+    const auto& b = e.b;
+    e.record.runGroups("sort_few_sites", 1, push,
+                       {e.record.counts(), b.raw_sites, b.placed, b.sites, b.bin_start, b.bin_sites, e.record.args()});
+}
+
 } // namespace
 
 void recordSites(const Event& e) {
@@ -118,6 +128,7 @@ void recordSites(const Event& e) {
 }
 
 void recordKeptSites(const Event& e) {
+    if (e.capacity.sites <= FEW_SITES && e.capacity.bins <= FEW_SITES) return recordFewSites(e);
     e.record.clear({e.b.site_table, e.b.bin_counts, e.b.bin_cursors});
     recordSiteWelding(e);
     recordBinning(e);
