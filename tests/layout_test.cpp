@@ -3,8 +3,12 @@
 // A struct of a kernel that has the name of a row below must have its members, in order, at its offsets; a struct that is
 // in an array must have the C++ size as its stride. A row that no kernel uses fails.
 #include "engine/reflection.h"
+#include "shaders-spirv/shared/body.h"
 #include "shaders-spirv/shared/collider.h"
+#include "shaders-spirv/shared/contact.h"
 #include "shaders-spirv/shared/fragment_record.h"
+#include "shaders-spirv/shared/hull.h"
+#include "shaders-spirv/shared/narrow_phase.h"
 #include "shaders-spirv/shared/scene.h"
 #include "tests/engine/test_device.h"
 
@@ -58,6 +62,24 @@ const std::vector<Row>& rows() {
           {"high", offsetof(brittle::FragmentRecord, high)},
           {"fate", offsetof(brittle::FragmentRecord, fate)},
           {"range", offsetof(brittle::FragmentRecord, range)}}},
+        {"HullRecord",
+         sizeof(gpu::HullRecord),
+         {MEMBER(HullRecord, first), MEMBER(HullRecord, count), MEMBER(HullRecord, center)}},
+        {"HullFace", sizeof(gpu::HullFace), {MEMBER(HullFace, plane), MEMBER(HullFace, loop)}},
+        {"BodyState",
+         sizeof(gpu::BodyState),
+         {MEMBER(BodyState, sector), MEMBER(BodyState, offset), MEMBER(BodyState, turn), MEMBER(BodyState, velocity),
+          MEMBER(BodyState, spin), MEMBER(BodyState, momentum)}},
+        {"PieceRecord", sizeof(gpu::PieceRecord), {MEMBER(PieceRecord, ids)}},
+        {"ContactPoint",
+         sizeof(gpu::ContactPoint),
+         {MEMBER(ContactPoint, arm_a), MEMBER(ContactPoint, arm_b), MEMBER(ContactPoint, id)}},
+        {"Manifold",
+         sizeof(gpu::Manifold),
+         {MEMBER(Manifold, pair), MEMBER(Manifold, normal), MEMBER(Manifold, info), MEMBER(Manifold, points)}},
+        {"AxisRecord",
+         sizeof(gpu::AxisRecord),
+         {MEMBER(AxisRecord, axis), MEMBER(AxisRecord, shift), MEMBER(AxisRecord, info)}},
         {"DrawPush",
          sizeof(gpu::DrawPush),
          {MEMBER(DrawPush, view_projection), MEMBER(DrawPush, eye), MEMBER(DrawPush, key_direction),

@@ -1,0 +1,80 @@
+#include "modules/brittle/dynamics/narrow_phase.h"
+
+#include "shaders-spirv/shared/contact.h"
+#include "shaders-spirv/shared/narrow_phase.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace brittle {
+namespace {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::Kernel;
+using engine::Result;
+
+Result<void> checkOptions(const NarrowPhaseOptions& options) {
+    const auto refuse = [](const std::string& what) { return Error{ErrorCode::BadInput, "narrow phase: " + what}; };
+    if (!(options.speculative >= 0) || !std::isfinite(options.speculative))
+        return refuse("the speculative distance is " + std::to_string(options.speculative) + " m; give one of 0 or more");
+    if (!(options.duration >= 0) || !std::isfinite(options.duration))
+        return refuse("the step takes " + std::to_string(options.duration) + " s; give it 0 or more");
+    for (const uint32_t known : {0u, 6u, 14u, 26u, 62u})
+        if (options.fixed_axes == known) return {};
+    return refuse("there are no " + std::to_string(options.fixed_axes) + " fixed axes; take 6, 14, 26, 62, or 0 for all");
+}
+
+Result<void> checkRoom(const NarrowPhaseInput& input, const NarrowPhaseOutput& output) {
+    const auto room = [&](const char* name, const engine::BufferView& view, uint64_t needed) -> Result<void> {
+        if (view.size >= needed) return {};
+        return Error{ErrorCode::Capacity, std::string("narrow phase: ") + name + " has " + std::to_string(view.size) + " of " +
+                                              std::to_string(needed) + " bytes for " + std::to_string(input.capacity) +
+                                              " pairs; make it larger"};
+    };
+    const uint64_t pairs = input.capacity;
+    if (auto fits = room("pairs", input.pairs, pairs * 8); !fits) return fits;
+    if (auto fits = room("manifolds", output.manifolds, pairs * sizeof(gpu::Manifold)); !fits) return fits;
+    if (auto fits = room("axes", output.axes, pairs * sizeof(gpu::AxisRecord)); !fits) return fits;
+    return room("arguments", output.arguments, kNarrowPhaseArgumentBytes);
+}
+
+struct Kernels {
+    const Kernel* size;
+    const Kernel* axes;
+    const Kernel* manifolds;
+};
+
+Result<Kernels> kernelsOf(engine::KernelLibrary& library, uint32_t fixed_axes, bool many_lanes) {
+    const auto size = library.get("size_narrow_phase");
+    if (!size) return size.error();
+    const auto axes = library.get(many_lanes ? "find_axes_wide" : "find_axes", {fixed_axes / 2});
+    if (!axes) return axes.error();
+    const auto manifolds = library.get("build_manifolds");
+    if (!manifolds) return manifolds.error();
+    return Kernels{*size, *axes, *manifolds};
+}
+
+} // namespace
+
+Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary& library, const NarrowPhaseInput& input,
+                               const NarrowPhaseOptions& options, const NarrowPhaseOutput& output, bool many_lanes) {
+    if (auto valid = checkOptions(options); !valid) return valid;
+    if (auto fits = checkRoom(input, output); !fits) return fits;
+    const auto kernels = kernelsOf(library, options.fixed_axes, many_lanes);
+    if (!kernels) return kernels.error();
+
+    const gpu::NarrowPhasePush push = {options.speculative, options.duration, input.capacity, 0};
+    const HullPools& hulls = input.hulls;
+    commands.dispatchGroups(*kernels->size, 1, push, {input.pair_count, output.arguments});
+    commands.dispatchIndirect(*kernels->axes, output.arguments.sub(0, 12), push,
+                              {input.pair_count, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
+                               hulls.faces, hulls.corners, hulls.edges, output.axes});
+    commands.dispatchIndirect(*kernels->manifolds, output.arguments.sub(16, 12), push,
+                              {input.pair_count, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
+                               hulls.faces, hulls.corners, hulls.edges, output.axes, output.manifolds});
+    return commands.status();
+}
+
+} // namespace brittle

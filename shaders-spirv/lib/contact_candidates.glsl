@@ -1,0 +1,127 @@
+// Where a face of one hull lies over a face of another: up to four points.
+//
+// Both faces are laid into the plane of the reference face. Each edge of the incident face is cut by all sides of the reference
+// face at once, which gives the corners of the clipped polygon that lie on it; those of the reference face that lie within the
+// incident one are the others. That is the polygon of Sutherland and Hodgman (1974), found without passing it from side to
+// side, so that every corner is named by the two lines that it lies on: names stay while the same features touch.
+#ifndef CONTACT_CANDIDATES_GLSL
+#define CONTACT_CANDIDATES_GLSL
+
+#define FACE_CORNERS HULL_FACES
+#define CANDIDATES (2u * FACE_CORNERS)
+
+struct Plane2 {
+    vec3 u, v, n;  // of the reference face, n outward
+    float height;  // of the reference hull along n
+};
+
+Plane2 plane;
+vec2 reference_at[FACE_CORNERS];
+vec3 incident_at[FACE_CORNERS]; // z: above the reference plane
+vec4 candidate_at[CANDIDATES];  // w: name, as bits
+uint reference_count, incident_count, candidate_count;
+float slack; // by which a point may lie beside the reference face
+
+void spanPlane(vec3 n, float height) {
+    vec3 size = abs(n);
+    vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0) : size.y <= size.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    vec3 u = normalize(cross(axis, n));
+    plane = Plane2(u, cross(n, u), n, height);
+}
+
+vec3 inPlane(vec3 p) { return vec3(dot(plane.u, p), dot(plane.v, p), dot(plane.n, p) - plane.height); }
+
+vec3 outOfPlane(vec3 p) { return p.x * plane.u + p.y * plane.v + (p.z + plane.height) * plane.n; }
+
+void addCandidate(vec3 at, uint line, uint other) {
+    if (candidate_count >= CANDIDATES || at.z > pair.margin) return;
+    candidate_at[candidate_count] = vec4(at, uintBitsToFloat(line << 7 | other));
+    candidate_count++;
+}
+
+// Outward, unit, of the side from p to q of a polygon that is counterclockwise; 0 where it has no length.
+vec2 outwardOf(vec2 p, vec2 q) {
+    vec2 d = q - p;
+    float square = dot(d, d);
+    return square > 0.0 ? vec2(d.y, -d.x) * inversesqrt(square) : vec2(0.0);
+}
+
+// The part of an incident edge that lies over the reference face, as shares of its length, and the sides that end it.
+struct Cut {
+    float first, last;
+    uint first_side, last_side;
+};
+
+Cut cutEdge(vec2 p, vec2 q) {
+    Cut cut = Cut(0.0, 1.0, NO_INDEX, NO_INDEX);
+    vec2 corner = reference_at[reference_count - 1u];
+    for (uint j = 0u; j < reference_count; j++) {
+        vec2 next = reference_at[j];
+        vec2 out_of = outwardOf(corner, next);
+        float a = dot(out_of, p - corner) - slack, b = dot(out_of, q - corner) - slack;
+        float at = a / (a - b);
+        if (a > 0.0 && b > 0.0) cut.last = -1.0;
+        if (a > 0.0 && b <= 0.0 && at > cut.first) {
+            cut.first = at;
+            cut.first_side = j;
+        }
+        if (a <= 0.0 && b > 0.0 && at < cut.last) {
+            cut.last = at;
+            cut.last_side = j;
+        }
+        corner = next;
+    }
+    return cut;
+}
+
+void addIncidentEdges() {
+    vec3 p = incident_at[incident_count - 1u];
+    uint before = incident_count - 1u;
+    for (uint i = 0u; i < incident_count; i++) {
+        vec3 q = incident_at[i];
+        Cut cut = cutEdge(p.xy, q.xy);
+        if (cut.first <= cut.last) {
+            // A corner that is not cut off is that of edge i and the one before.
+            uint start = cut.first_side == NO_INDEX ? before : FACE_CORNERS + cut.first_side;
+            addCandidate(mix(p, q, cut.first), start, i);
+            if (cut.last_side != NO_INDEX) addCandidate(mix(p, q, cut.last), i, FACE_CORNERS + cut.last_side);
+        }
+        before = i;
+        p = q;
+    }
+}
+
+// How far a point lies beyond the side of the incident polygon that it passes furthest. Seen along n that polygon is clockwise.
+float outsideIncident(vec2 at) {
+    float outside = -kFar;
+    vec2 corner = incident_at[incident_count - 1u].xy;
+    for (uint i = 0u; i < incident_count; i++) {
+        vec2 next = incident_at[i].xy;
+        outside = max(outside, dot(outwardOf(next, corner), at - corner));
+        corner = next;
+    }
+    return outside;
+}
+
+// `n`: of the incident face, in the plane's axes.
+void addReferenceCorners(vec3 n) {
+    if (abs(n.z) < 0.01) return;
+    uint before = reference_count - 1u;
+    for (uint j = 0u; j < reference_count; j++) {
+        vec2 at = reference_at[j];
+        float height = incident_at[0].z - dot(n.xy, at - incident_at[0].xy) / n.z;
+        uint next = j + 1u == reference_count ? 0u : j + 1u;
+        if (outsideIncident(at) < -slack) addCandidate(vec3(at, height), FACE_CORNERS + next, FACE_CORNERS + j);
+    }
+}
+
+// Where clipping has left nothing of hulls that touch: the lowest corner of the incident face.
+void addLowest() {
+    uint lowest = 0u;
+    for (uint i = 0u; i < incident_count; i++)
+        if (incident_at[i].z < incident_at[lowest].z) lowest = i;
+    uint next = lowest + 1u == incident_count ? 0u : lowest + 1u;
+    addCandidate(incident_at[lowest], lowest, next);
+}
+
+#endif

@@ -1,0 +1,56 @@
+// Two hulls in one frame: the axes of A's body, from the center of A's hull. Everything is relative, so a pair far from the
+// origin of the world gives the same bits as the same pair at it, and sizes far apart cost no digits.
+// Wants `pieces`, `bodies`, `hulls` and `hull_vertices` declared.
+#ifndef HULL_PAIR_GLSL
+#define HULL_PAIR_GLSL
+#include "lib/quaternion.glsl"
+#include "shared/body.h"
+
+struct HullPair {
+    HullRecord hull[2];
+    uvec4 ids;       // pieces, bodies
+    mat3 axes[2];    // own axes to the frame's
+    vec3 place[2];   // of the hull's center
+    vec4 turn;       // the frame's axes to the world's
+    vec3 motion;     // of B relative to A over the step
+    float smaller;   // of the two radii
+    float rounding;  // what heights in this frame may be off by
+    float margin;    // points with this separation still count
+};
+
+// A margin as large as a chip would hold it off the ground.
+const float kMarginShare = 0.1;
+
+void loadPlaces(inout HullPair pair) {
+    BodyState a = bodies[pair.ids.z], b = bodies[pair.ids.w];
+    pair.turn = a.turn;
+    vec4 back = turnBack(a.turn);
+    pair.axes[0] = mat3(1.0);
+    pair.axes[1] = matrixOf(turnAfter(back, b.turn));
+    vec3 apart = vec3(b.sector.xyz - a.sector.xyz) * float(SECTOR_EDGE) + (b.offset.xyz - a.offset.xyz);
+    pair.place[0] = vec3(0.0);
+    pair.place[1] = turned(back, apart) + pair.axes[1] * pair.hull[1].center.xyz - pair.hull[0].center.xyz;
+    pair.motion = turned(back, b.velocity.xyz - a.velocity.xyz);
+}
+
+HullPair loadPair(uvec2 of, float duration, float speculative) {
+    HullPair pair;
+    uvec4 a = pieces[of.x].ids, b = pieces[of.y].ids;
+    pair.ids = uvec4(of, a.y, b.y);
+    pair.hull[0] = hulls[a.x];
+    pair.hull[1] = hulls[b.x];
+    loadPlaces(pair);
+    pair.motion *= duration;
+    float radius_a = pair.hull[0].center.w, radius_b = pair.hull[1].center.w;
+    pair.smaller = min(radius_a, radius_b);
+    pair.rounding = 2e-6 * (radius_a + radius_b);
+    pair.margin = min(speculative, kMarginShare * pair.smaller);
+    return pair;
+}
+
+vec3 cornerAt(HullPair pair, uint side, uint vertex) {
+    vec3 own = hull_vertices[pair.hull[side].first.x + vertex].xyz - pair.hull[side].center.xyz;
+    return side == 0u ? own : pair.axes[1] * own + pair.place[1];
+}
+
+#endif

@@ -1,0 +1,35 @@
+// Rigid bodies. A place is a sector of space and an offset in it, so that it is as exact far from the origin as near it: two
+// bodies are only ever compared by (difference of sectors) * SECTOR_EDGE + (difference of offsets). SI units.
+#ifndef BODY_H
+#define BODY_H
+
+#include "gpu_types.h"
+
+GPU_NAMESPACE_BEGIN
+
+#define SECTOR_EDGE 16 /* m */
+
+struct BodyState {
+    ivec4 sector;  // w: BODY_* flags
+    vec4 offset;   // of the center of mass, in [-8, 8) from the sector's middle; w: inverse mass, 0 for what does not move
+    vec4 turn;     // unit quaternion x, y, z, w: own frame to world
+    vec4 velocity; // of the center of mass
+    vec4 spin;     // angular velocity, world axes
+    vec4 momentum; // angular, world axes: the state; spin follows from it
+};
+
+struct BodyShape {
+    uvec4 pieces;            // first piece, count, 0, 0
+    vec4 inverse_inertia[3]; // rows, own frame; w: friction, restitution, radius about the center of mass that holds all pieces
+};
+
+struct PieceRecord {
+    uvec4 ids; // hull, body, 0, 0
+};
+
+GPU_NAMESPACE_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gpu::BodyState) == 96 && sizeof(gpu::BodyShape) == 64 && sizeof(gpu::PieceRecord) == 16);
+#endif
+#endif

@@ -1,0 +1,39 @@
+// What the kernels of the narrow phase and their recorder share.
+#ifndef NARROW_PHASE_H
+#define NARROW_PHASE_H
+
+#include "gpu_types.h"
+
+GPU_NAMESPACE_BEGIN
+
+// Kinds of separating axes, in the upper byte of a feature. The rest: a face, two edges (A's << 8 | B's), or a direction.
+#define AXIS_APART 0u
+#define AXIS_FACE_A 1u
+#define AXIS_FACE_B 2u
+#define AXIS_EDGES 3u
+#define AXIS_FIXED 4u
+#define AXIS_KIND_SHIFT 24u
+
+// Specialization constant of find_axes: pairs of opposite directions, 0 for all axes of the two hulls.
+#define FIXED_AXES_ID 0
+
+// The axis along which a pair touches, in the frame of A: its body's axes, from the center of A's hull.
+struct AxisRecord {
+    vec4 axis;  // unit, from A to B; w: separation along it where B has gone by the shift
+    vec4 shift; // of B, to the time of impact; w: height of the reference hull along its own outward normal
+    uvec4 info; // feature, reference hull (0 is A), its face, the other's face
+};
+
+struct NarrowPhasePush {
+    float speculative; // m
+    float duration;    // of the step in seconds; 0: nothing is swept
+    uint capacity;     // pairs
+    uint pad;
+};
+
+GPU_NAMESPACE_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::NarrowPhasePush) == 16);
+#endif
+#endif
