@@ -207,6 +207,30 @@ TEST(SmallJoinBoxes, MakesEveryNodeThatAWalkToTheRightMayMeet) {
     }
 }
 
+// Boxes that all meet: the first meets 299 others and the nodes above them.
+TEST(SmallPairBoxes, SaysWhereALaneRanOutOfTurns) {
+    constexpr uint32_t kBoxes = 300, kPairs = kBoxes * (kBoxes - 1) / 2;
+    Leaves leaves;
+    leaves.order = countUp(kBoxes);
+    for (uint32_t k = 0; k < kBoxes; ++k)
+        leaves.boxes.push_back(cubeAt(0, 0, 0, 1, k));
+    const engine::Buffer nodes = bufferOf(nodesOver(leaves, kBoxes));
+    for (const uint32_t turns : {100u, 299u, 500u}) {
+        Counts counts;
+        counts[COUNT_TREE_BOXES] = kBoxes;
+        const DeviceBoxes in = upload(leaves.boxes, 1);
+        const engine::Buffer pair_counts = bufferOf(std::vector<uint32_t>(kBoxes)), found = blankBuffer<uint32_t>(3 * kPairs);
+        struct Push {
+            uint32_t box_capacity, pair_capacity, turn_budget;
+        } push = {kBoxes, kPairs, turns};
+        onDevice([&](engine::Commands& commands) {
+            commands.dispatch(kernel("pair_boxes"), kBoxes, push, {counts.words, nodes, in.high, pair_counts, found});
+        });
+        EXPECT_EQ(counts[STATUS_FAILED], turns == 500 ? 0u : FAILED_PAIRING) << turns;
+        if (turns == 500) EXPECT_EQ(counts[COUNT_FOUND_PAIRS], kPairs);
+    }
+}
+
 // Lists around the length from which they are long, of pieces that lie near each other and in several bitmaps.
 TEST(SmallOrderPairs, PutsShortAndLongListsInOrder) {
     constexpr uint32_t kPieces = 200'000;
