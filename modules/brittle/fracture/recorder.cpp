@@ -37,6 +37,23 @@ void Recorder::scan(Length length, engine::BufferView values, engine::BufferView
     }
 }
 
+void Recorder::sort(uint32_t count, uint32_t bits, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2],
+                    const RadixBuffers& room) {
+    uint32_t passes = (bits + RADIX_BITS - 1) / RADIX_BITS;
+    passes += passes % 2; // so that the outcome lies where it began
+    runGroups("publish_tiles", 1, count, {counts_, args_});
+    for (uint32_t pass = 0; pass < passes; pass++) {
+        struct Push {
+            uint32_t length_count, shift;
+        } push = {count, pass * RADIX_BITS};
+        uint32_t from = pass % 2, to = 1 - from;
+        runGroups("radix_count", blocksOf(count), push, {counts_, keys[from], room.histogram});
+        scan(Length::counted(COUNT_RADIX), room.histogram, room.sums, room.digit_offsets, {});
+        runGroups("radix_scatter", blocksOf(count), push,
+                  {counts_, keys[from], values[from], room.digit_offsets, keys[to], values[to]});
+    }
+}
+
 void Recorder::clear(Views views) {
     for (const engine::BufferView& view : views)
         commands_.fill(view, 0);

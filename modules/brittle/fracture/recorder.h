@@ -27,6 +27,11 @@ struct Length {
     static Length counted(uint32_t index) { return {0, index}; }
 };
 
+// What a radix sort needs next to keys and values.
+struct RadixBuffers {
+    engine::BufferView histogram, digit_offsets, sums;
+};
+
 class Recorder {
 public:
     using Views = std::initializer_list<engine::BufferView>;
@@ -57,6 +62,10 @@ public:
     // offsets[k] = values[0] + ... + values[k - 1]; one more offset than values. Four channels: values are uvec4.
     void scan(Length length, engine::BufferView values, engine::BufferView sums, engine::BufferView offsets,
               const Published& published, bool four_channels = false);
+    // Sorts two lists by the low `bits` of the keys, stably; `count` says how long they are. The second pair of lists is room to
+    // work in, the outcome lies in the first.
+    void sort(uint32_t count, uint32_t bits, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2],
+              const RadixBuffers& room);
     void clear(Views views);
     // Makes a count that kernels built with atomics known to dispatches.
     void publish(uint32_t count, uint32_t capacity);

@@ -50,22 +50,8 @@ void recordFlaps(const Event& e) {
 
 // The number of passes follows from the highest key that the pools admit.
 void recordSort(const Event& e, uint32_t count, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2]) {
-    const auto& b = e.b;
-    Recorder& r = e.record;
-    uint32_t bits = static_cast<uint32_t>(std::bit_width(e.capacity.components));
-    uint32_t passes = (bits + RADIX_BITS - 1) / RADIX_BITS;
-    passes += passes % 2; // so that the outcome lies where it began
-    r.runGroups("publish_tiles", 1, count, {r.counts(), r.args()});
-    for (uint32_t pass = 0; pass < passes; pass++) {
-        struct Push {
-            uint32_t length_count, shift;
-        } push = {count, pass * RADIX_BITS};
-        uint32_t from = pass % 2, to = 1 - from;
-        r.runGroups("radix_count", r.blocksOf(count), push, {r.counts(), keys[from], b.histogram});
-        r.scan(Length::counted(COUNT_RADIX), b.histogram, b.sums, b.digit_offsets, {});
-        r.runGroups("radix_scatter", r.blocksOf(count), push,
-                    {r.counts(), keys[from], values[from], b.digit_offsets, keys[to], values[to]});
-    }
+    const uint32_t bits = static_cast<uint32_t>(std::bit_width(e.capacity.components));
+    e.record.sort(count, bits, keys, values, {e.b.histogram, e.b.digit_offsets, e.b.sums});
 }
 
 namespace {
