@@ -52,7 +52,7 @@ Seen seenByAll(Seen mine) {
     seen_features[lane] = uvec2(mine.feature, mine.enter_feature);
     barrier();
     Seen all = seenNothing();
-    for (uint k = 0u; k < LANES; k++) {
+    for (uint k = 0u; k < ROLLED(LANES); k++) {
         vec4 values = seen_values[k];
         uvec2 features = seen_features[k];
         if (isBetter(values.x, features.x, all.separation, all.feature)) {
@@ -88,7 +88,7 @@ vec4 measureAlong(vec3 n) {
     seen_heights[lane] = mine;
     barrier();
     vec4 all = mine;
-    for (uint k = 0u; k < LANES; k++) {
+    for (uint k = 0u; k < ROLLED(LANES); k++) {
         vec4 other = seen_heights[k];
         all = vec4(min(all.x, other.x), max(all.y, other.y), min(all.z, other.z), max(all.w, other.w));
     }

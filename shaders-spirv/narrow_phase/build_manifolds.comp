@@ -72,7 +72,7 @@ void gatherCandidates(uint reference_side, uint reference_face, uint incident_fa
     candidate_count = 0u;
     addIncidentEdges();
     addReferenceCorners(vec3(dot(plane.u, n), dot(plane.v, n), dot(plane.n, n)));
-    if (candidate_count == 0u && (is_swept || found.axis.w <= 0.0)) addLowest();
+    if (is_swept || found.axis.w <= 0.0) addLowest(found.axis.w);
 }
 
 void touchFaces() {

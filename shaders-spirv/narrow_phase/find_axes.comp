@@ -65,12 +65,15 @@ void loadHulls(uint k) {
     barrier();
 }
 
+vec3 faceAxis(uint feature) {
+    return (feature >> AXIS_KIND_SHIFT) == AXIS_FACE_A ? faceNormal(0u, feature & 0xffu) : -faceNormal(1u, feature & 0xffu);
+}
+
+vec3 edgeAxis(uint feature) { return axisBetween(edgeOf(0u, (feature >> 8) & 0xffu), edgeOf(1u, feature & 0xffu)); }
+
 vec3 axisOf(uint feature) {
-    uint kind = feature >> AXIS_KIND_SHIFT, low = feature & 0xffu;
-    if (kind == AXIS_FACE_A) return faceNormal(0u, low);
-    if (kind == AXIS_FACE_B) return -faceNormal(1u, low);
-    if (kind == AXIS_FIXED) return fixedAxis(low);
-    return axisBetween(edgeOf(0u, (feature >> 8) & 0xffu), edgeOf(1u, low));
+    uint kind = feature >> AXIS_KIND_SHIFT;
+    return fixed_axes != 0u ? fixedAxis(feature & 0xffu) : kind == AXIS_EDGES ? edgeAxis(feature) : faceAxis(feature);
 }
 
 // B's best instead of A's where it is better for certain, in both respects; what either has seen counts for leaving.
@@ -88,7 +91,7 @@ Seen betterOf(Seen a, Seen b) {
     return both;
 }
 
-bool isHit(Seen seen) { return is_fast && seen.separation > 0.0 && seen.enter <= min(seen.leave, 1.0); }
+bool isHit(Seen seen) { return is_fast && seen.separation > 0.0 && seen.enter >= 0.0 && seen.enter <= min(seen.leave, 1.0); }
 
 bool isApart(Seen seen) { return seen.separation > pair.margin && !isHit(seen); }
 
@@ -97,15 +100,15 @@ float gapOf(Seen a, Seen b) { return length(pair.place[1]) * max(1.0 - a.reach -
 
 // The best axis between edges, and whether it holds along all corners what it promised.
 bool holds(inout Seen edges) {
-    uint feature = isHit(edges) ? edges.enter_feature : edges.feature;
-    vec4 heights = measureAlong(axisOf(feature));
+    vec3 n = edgeAxis(isHit(edges) ? edges.enter_feature : edges.feature);
+    vec4 heights = measureAlong(n);
     float separation = heights.z - heights.y;
     if (!isHit(edges)) {
         bool kept = separation >= edges.separation - tie;
         edges.separation = separation;
         return kept;
     }
-    float speed = dot(axisOf(feature), pair.motion);
+    float speed = dot(n, pair.motion);
     float entered = speed < 0.0 ? -separation / speed : -kFar;
     bool kept = (edges.enter - entered) * length(pair.motion) <= tie;
     edges.enter = entered;
@@ -132,7 +135,7 @@ Seen withEdges(Seen faces, bool wanted) {
 Seen searchAll() {
     Seen a = seeFaces(0u), b = seeFaces(1u);
     Seen faces = betterOf(a, b);
-    vec4 heights = measureAlong(axisOf(faces.feature));
+    vec4 heights = measureAlong(faceAxis(faces.feature));
     float depth = (is_fast ? kFar : max(-faces.separation, gapOf(a, b))) + tie;
     bool wanted = !isApart(faces);
     listNearEdges(heights.z - depth, heights.y + depth, wanted);
