@@ -48,9 +48,10 @@ HullPair loadPair(uvec2 of, float duration, float speculative) {
     return pair;
 }
 
-vec3 cornerAt(HullPair pair, uint side, uint vertex) {
-    vec3 own = hull_vertices[pair.hull[side].first.x + vertex].xyz - pair.hull[side].center.xyz;
-    return side == 0u ? own : pair.axes[1] * own + pair.place[1];
+vec3 cornerAt(HullPair pair, bool of_a, uint vertex) {
+    vec3 own = hull_vertices[(of_a ? pair.hull[0].first.x : pair.hull[1].first.x) + vertex].xyz;
+    own -= of_a ? pair.hull[0].center.xyz : pair.hull[1].center.xyz;
+    return of_a ? own : pair.axes[1] * own + pair.place[1];
 }
 
 #endif
