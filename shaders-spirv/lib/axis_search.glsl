@@ -27,10 +27,10 @@ bool isBetter(float value, uint feature, float than, uint than_feature) {
     return value > than || (value == than && feature < than_feature);
 }
 
-// `doubt`: what the separation may be off by. What is in doubt hinders no impact. Whether this is the best so far, by separation
+// `doubt`: what the separation may be off by, which hinders no impact. Whether this is the best so far, by separation
 // and by time.
 bvec2 see(inout Seen seen, float separation, float speed, float doubt, uint feature) {
-    bool outside = separation > doubt, inside = separation < -doubt || doubt == 0.0;
+    bool outside = separation > doubt;
     float time = speed == 0.0 ? kFar : -separation / speed;
     bool is_best = isBetter(separation, feature, seen.separation, seen.feature);
     bool is_last = outside && speed < 0.0 && isBetter(time, feature, seen.enter, seen.enter_feature);
@@ -38,8 +38,8 @@ bvec2 see(inout Seen seen, float separation, float speed, float doubt, uint feat
     seen.feature = is_best ? feature : seen.feature;
     seen.enter = is_last ? time : seen.enter;
     seen.enter_feature = is_last ? feature : seen.enter_feature;
-    float leave = outside && speed >= 0.0 ? -1.0 : !outside && inside && speed > 0.0 ? time : kFar;
-    seen.leave = min(seen.leave, leave);
+    float leave = speed > 0.0 ? (doubt - separation) / speed : kFar;
+    seen.leave = min(seen.leave, outside && speed >= 0.0 ? -1.0 : leave);
     return bvec2(is_best, is_last);
 }
 

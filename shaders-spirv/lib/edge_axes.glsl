@@ -27,11 +27,14 @@ shared vec4 staged_left[STAGED_EDGES];
 shared vec4 staged_right[STAGED_EDGES];
 shared vec4 shared_axis;
 
+// Directions from the hull's own corners: between corners in the pair's frame, short edges far from its origin would have none.
 HullEdge edgeOf(bool of_a, uint e) {
     uvec4 edge = hull_edges[(of_a ? pair.hull[0].first.w : pair.hull[1].first.w) + e];
-    uint first = of_a ? 0u : corner_counts.x;
-    vec3 from = corners[first + edge.x].xyz, along = corners[first + edge.y].xyz - from;
+    uint first = of_a ? pair.hull[0].first.x : pair.hull[1].first.x;
+    vec3 from = corners[(of_a ? 0u : corner_counts.x) + edge.x].xyz;
+    vec3 along = hull_vertices[first + edge.y].xyz - hull_vertices[first + edge.x].xyz;
     along *= inversesqrt(max(dot(along, along), 1e-37));
+    along = of_a ? along : pair.axes[1] * along;
     return HullEdge(from, along, faceNormal(of_a, edge.z), faceNormal(of_a, edge.w));
 }
 
@@ -81,6 +84,7 @@ struct SeenAxes {
 // One edge of B against the staged ones of A, of which those better than the limit were refused before.
 void seeStaged(inout Seen seen, inout SeenAxes axes, uint e, uint count, Seen limit) {
     HullEdge b = edgeOf(false, e);
+    float doubt = pair.rounding + kRounding * length(pair.place[1]); // times what the angle between the edges makes of it
     for (uint k = 0u; k < count; k++) {
         vec4 from = staged_from[k];
         vec4 n = axisBetween(HullEdge(from.xyz, staged_along[k].xyz, staged_left[k].xyz, staged_right[k].xyz), b);
@@ -88,7 +92,7 @@ void seeStaged(inout Seen seen, inout SeenAxes axes, uint e, uint count, Seen li
         uint feature = (AXIS_EDGES << AXIS_KIND_SHIFT) | (floatBitsToUint(from.w) << 8) | e;
         bool is_open = n.w > 0.0 && isBetter(limit.separation, limit.feature, separation, feature);
         bvec2 won = bvec2(false);
-        if (is_open) won = see(seen, separation, dot(n.xyz, pair.motion), pair.rounding / max(n.w, kParallel), feature);
+        if (is_open) won = see(seen, separation, dot(n.xyz, pair.motion), doubt / max(n.w, kParallel), feature);
         axes.best = won.x ? n.xyz : axes.best;
         axes.entered = won.y ? n.xyz : axes.entered;
     }

@@ -18,6 +18,7 @@ struct HullPair {
     float margin;    // points with this separation still count
 };
 
+const float kRounding = 2e-6; // of lengths, after a few products and sums
 // A margin as large as a chip would hold it off the ground.
 const float kMarginShare = 0.1;
 
@@ -43,7 +44,7 @@ HullPair loadPair(uvec2 of, float duration, float speculative) {
     pair.motion *= duration;
     float radius_a = pair.hull[0].center.w, radius_b = pair.hull[1].center.w;
     pair.smaller = min(radius_a, radius_b);
-    pair.rounding = 2e-6 * (radius_a + radius_b);
+    pair.rounding = kRounding * (radius_a + radius_b);
     pair.margin = min(speculative, kMarginShare * pair.smaller);
     return pair;
 }

@@ -28,7 +28,7 @@ HullScene manyPairs(uint32_t count) {
     return scene;
 }
 
-TEST(SmallNarrowPhase, GivesTheSameBytesWhateverTheLanes) {
+TEST(NarrowPhase, GivesTheSameBytesWhateverTheLanes) {
     const HullScene scene = manyPairs(300);
     const auto expected = wordsOf(manifoldsOf(scene));
     EXPECT_EQ(wordsOf(manifoldsOf(scene)), expected);

@@ -31,10 +31,10 @@ TEST(SmallSweep, ACubeDoesNotPassThroughAWall) {
         const gpu::Manifold m = meeting({0}, {1, {.075 + way, .3, -.2}, kNoTurn, {-300, 0, 0}});
         ASSERT_EQ(m.info.x, 4u) << way;
         EXPECT_NEAR(m.normal.x, 1, 1e-6);
-        for (uint32_t k = 0; k < 4; ++k) {
-            EXPECT_NEAR(m.points[k].arm_a.w, way, 1e-5);
-            EXPECT_NEAR(m.points[k].arm_a.x, .025, 1e-5);
-            EXPECT_NEAR(m.points[k].arm_b.x, -.05, 1e-5);
+        for (const gpu::ContactPoint& p : m.points) {
+            EXPECT_NEAR(p.arm_a.w, way, 1e-5);
+            EXPECT_NEAR(p.arm_a.x, .025, 1e-5);
+            EXPECT_NEAR(p.arm_b.x, -.05, 1e-5);
         }
     }
 }
