@@ -6,6 +6,7 @@
 // way of B as a ray is clipped by a convex polytope (the paper, section 6, takes intervals): it touches A at the latest time at
 // which it passes a plane inward, if that is before the first at which it is out of another. Which axis wins depends on values
 // and ids alone, not on the lane that saw it.
+// Wants `corners`, `corner_counts` and `lane` declared.
 #ifndef AXIS_SEARCH_GLSL
 #define AXIS_SEARCH_GLSL
 
@@ -26,20 +27,20 @@ bool isBetter(float value, uint feature, float than, uint than_feature) {
     return value > than || (value == than && feature < than_feature);
 }
 
-// `doubt`: what the separation may be off by. What is in doubt hinders no impact.
-void see(inout Seen seen, float separation, float speed, float doubt, uint feature) {
-    if (isBetter(separation, feature, seen.separation, seen.feature)) {
-        seen.separation = separation;
-        seen.feature = feature;
-    }
-    bool outside = separation > doubt, inside = separation < -doubt || doubt == 0.0;
+// `doubt`: what the separation may be off by, which hinders no impact. Whether this is the best so far, by separation
+// and by time.
+bvec2 see(inout Seen seen, float separation, float speed, float doubt, uint feature) {
+    bool outside = separation > doubt;
     float time = speed == 0.0 ? kFar : -separation / speed;
-    if (outside && speed < 0.0 && isBetter(time, feature, seen.enter, seen.enter_feature)) {
-        seen.enter = time;
-        seen.enter_feature = feature;
-    }
-    if (outside && speed >= 0.0) seen.leave = -1.0;
-    if (!outside && inside && speed > 0.0) seen.leave = min(seen.leave, time);
+    bool is_best = isBetter(separation, feature, seen.separation, seen.feature);
+    bool is_last = outside && speed < 0.0 && isBetter(time, feature, seen.enter, seen.enter_feature);
+    seen.separation = is_best ? separation : seen.separation;
+    seen.feature = is_best ? feature : seen.feature;
+    seen.enter = is_last ? time : seen.enter;
+    seen.enter_feature = is_last ? feature : seen.enter_feature;
+    float leave = speed > 0.0 ? (doubt - separation) / speed : kFar;
+    seen.leave = min(seen.leave, outside && speed >= 0.0 ? -1.0 : leave);
+    return bvec2(is_best, is_last);
 }
 
 shared vec4 seen_values[LANES]; // separation, enter, leave, reach
@@ -52,47 +53,31 @@ Seen seenByAll(Seen mine) {
     seen_features[lane] = uvec2(mine.feature, mine.enter_feature);
     barrier();
     Seen all = seenNothing();
-    for (uint k = 0u; k < LANES; k++) {
+    for (uint k = 0u; k < ROLLED(LANES); k++) {
         vec4 values = seen_values[k];
         uvec2 features = seen_features[k];
-        if (isBetter(values.x, features.x, all.separation, all.feature)) {
-            all.separation = values.x;
-            all.feature = features.x;
-        }
-        if (isBetter(values.y, features.y, all.enter, all.enter_feature)) {
-            all.enter = values.y;
-            all.enter_feature = features.y;
-        }
-        all.leave = min(all.leave, values.z);
-        all.reach = min(all.reach, values.w);
+        bool is_best = isBetter(values.x, features.x, all.separation, all.feature);
+        bool is_last = isBetter(values.y, features.y, all.enter, all.enter_feature);
+        all = Seen(is_best ? values.x : all.separation, is_best ? features.x : all.feature, is_last ? values.y : all.enter,
+                   is_last ? features.y : all.enter_feature, min(all.leave, values.z), min(all.reach, values.w));
     }
     return all;
 }
 
-shared vec4 seen_heights[LANES];
-
 // Heights of all corners along n, kept with the corners: lowest and highest of A, then of B.
 vec4 measureAlong(vec3 n) {
-    vec4 mine = vec4(kFar, -kFar, kFar, -kFar);
-    for (uint side = 0u; side < 2u; side++) {
-        for (uint v = lane; v < corner_count[side]; v += LANES) {
-            float height = dot(n, corners[side * HULL_VERTICES + v].xyz);
-            corners[side * HULL_VERTICES + v].w = height;
-            if (side == 0u)
-                mine.xy = vec2(min(mine.x, height), max(mine.y, height));
-            else
-                mine.zw = vec2(min(mine.z, height), max(mine.w, height));
-        }
+    vec4 most = vec4(-kFar); // with the lowest turned over, so that all are maxima
+    for (uint v = lane; v < corner_counts.x + corner_counts.y; v += LANES) {
+        float height = dot(n, corners[v].xyz);
+        corners[v].w = height;
+        vec2 both = vec2(-height, height);
+        most = max(most, v < corner_counts.x ? vec4(both, vec2(-kFar)) : vec4(vec2(-kFar), both));
     }
     barrier();
-    seen_heights[lane] = mine;
+    seen_values[lane] = most;
     barrier();
-    vec4 all = mine;
-    for (uint k = 0u; k < LANES; k++) {
-        vec4 other = seen_heights[k];
-        all = vec4(min(all.x, other.x), max(all.y, other.y), min(all.z, other.z), max(all.w, other.w));
-    }
-    return all;
+    for (uint k = 0u; k < ROLLED(LANES); k++) most = max(most, seen_values[k]);
+    return most * vec4(-1, 1, -1, 1);
 }
 
 #endif

@@ -115,13 +115,15 @@ void addReferenceCorners(vec3 n) {
     }
 }
 
-// Where clipping has left nothing of hulls that touch: the lowest corner of the incident face.
-void addLowest() {
+// The lowest corner of the incident face, where nothing that is left lies about as low: it may lie beside the reference face
+// where an axis between edges would have done as well.
+void addLowest(float expected) {
+    for (uint k = 0u; k < candidate_count; k++)
+        if (candidate_at[k].z <= expected + slack) return;
     uint lowest = 0u;
     for (uint i = 0u; i < incident_count; i++)
         if (incident_at[i].z < incident_at[lowest].z) lowest = i;
-    uint next = lowest + 1u == incident_count ? 0u : lowest + 1u;
-    addCandidate(incident_at[lowest], lowest, next);
+    addCandidate(incident_at[lowest], lowest, lowest + 1u == incident_count ? 0u : lowest + 1u);
 }
 
 #endif

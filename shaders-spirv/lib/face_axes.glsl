@@ -1,70 +1,66 @@
-// Axes that are normals of faces, and the fixed ones; which faces lie towards an axis.
+// Axes that are normals of faces, and which face lies towards an axis.
 #ifndef FACE_AXES_GLSL
 #define FACE_AXES_GLSL
 
-vec3 faceNormal(uint side, uint face) {
-    vec3 own = hull_faces[pair.hull[side].first.y + face].plane.xyz;
-    return side == 0u ? own : pair.axes[1] * own;
+vec3 faceNormal(bool of_a, uint face) {
+    vec3 own = hull_faces[(of_a ? pair.hull[0].first.y : pair.hull[1].first.y) + face].plane.xyz;
+    return of_a ? own : pair.axes[1] * own;
 }
 
-// Of the plane above the center of its hull. Flat hulls have their center in it.
-float faceHeight(uint side, uint face) {
-    vec4 plane = hull_faces[pair.hull[side].first.y + face].plane;
-    return plane.w - dot(plane.xyz, pair.hull[side].center.xyz);
+// From A to B.
+vec3 faceAxis(uint feature) {
+    bool of_a = (feature >> AXIS_KIND_SHIFT) == AXIS_FACE_A;
+    vec3 n = faceNormal(of_a, feature & 0xffu);
+    return of_a ? n : -n;
 }
 
-float lowestAlong(vec3 n, uint side) {
+// The lowest corner of a hull above its center along n, which is in its own axes. All lanes read the same corner at a time.
+float lowestCorner(uvec2 range, vec3 center, vec3 n) {
     float lowest = kFar;
-    for (uint v = 0u; v < corner_count[side]; v++) lowest = min(lowest, dot(n, corners[side * HULL_VERTICES + v].xyz));
+    for (uint v = 0u; v < range.y; v++) lowest = min(lowest, dot(n, hull_vertices[range.x + v].xyz - center));
     return lowest;
 }
 
-Seen seeFaces(uint side) {
+// Lanes without a face look at the last one again, so that all turn alike.
+Seen seeFaces(bool of_a) {
+    uint first = of_a ? pair.hull[0].first.y : pair.hull[1].first.y, count = of_a ? face_counts.x : face_counts.y;
+    uvec2 range = of_a ? uvec2(pair.hull[1].first.x, corner_counts.y) : uvec2(pair.hull[0].first.x, corner_counts.x);
+    vec3 center = of_a ? pair.hull[0].center.xyz : pair.hull[1].center.xyz;
+    vec3 other_center = of_a ? pair.hull[1].center.xyz : pair.hull[0].center.xyz;
     Seen seen = seenNothing();
-    vec3 way = side == 0u ? pair.place[1] : -pair.place[1];
-    vec3 motion = side == 0u ? pair.motion : -pair.motion;
-    for (uint f = lane; f < face_count[side]; f += LANES) {
-        vec3 n = faceNormal(side, f);
-        float height = faceHeight(side, f);
-        float separation = lowestAlong(n, 1u - side) - dot(n, pair.place[side]) - height;
-        see(seen, separation, dot(n, motion), 0.0, ((side == 0u ? AXIS_FACE_A : AXIS_FACE_B) << AXIS_KIND_SHIFT) | f);
-        float towards = dot(n, way);
+    for (uint base = 0u; base < count; base += LANES) {
+        uint f = min(base + lane, count - 1u);
+        vec4 plane = hull_faces[first + f].plane;
+        vec3 n = of_a ? plane.xyz : pair.axes[1] * plane.xyz;
+        float height = plane.w - dot(plane.xyz, center);
+        float lowest = lowestCorner(range, other_center, of_a ? plane.xyz * pair.axes[1] : n);
+        vec3 axis = of_a ? n : -n;
+        float towards = dot(axis, pair.place[1]);
+        uint kind = of_a ? AXIS_FACE_A : AXIS_FACE_B;
+        see(seen, lowest + towards - height, dot(axis, pair.motion), 0.0, (kind << AXIS_KIND_SHIFT) | f);
         if (towards > 0.0) seen.reach = min(seen.reach, max(height, 0.0) / towards);
     }
     return seenByAll(seen);
 }
 
-// Pairs of opposite directions of the world: direction 2 k is the k-th of the table, 2 k + 1 its opposite.
-vec3 fixedAxis(uint direction) { return turned(turnBack(pair.turn), normalize(vec3(supportDirection(direction)))); }
-
-// The separating axis theorem over predefined axes (the paper, section 6).
-Seen seeFixedAxes(uint pairs) {
-    Seen seen = seenNothing();
-    for (uint d = lane; d < 2u * pairs; d += LANES) {
-        vec3 n = fixedAxis(d);
-        float separation = lowestAlong(n, 1u) + lowestAlong(-n, 0u);
-        see(seen, separation, dot(n, pair.motion), 0.0, (AXIS_FIXED << AXIS_KIND_SHIFT) | d);
-    }
-    return seenByAll(seen);
-}
-
 // How far a face reaches towards the other hull, by the heights measured last.
-float reachOf(uint side, uint face) {
-    uvec2 loop = hull_faces[pair.hull[side].first.y + face].loop.xy;
+float reachOf(bool of_a, uint face) {
+    HullFace at = hull_faces[(of_a ? pair.hull[0].first.y : pair.hull[1].first.y) + face];
     float reach = -kFar;
-    for (uint c = 0u; c < min(loop.y, HULL_FACES); c++) {
-        float height = corners[side * HULL_VERTICES + hull_corners[loop.x + c]].w;
-        reach = max(reach, side == 0u ? height : -height);
+    for (uint c = 0u; c < min(at.loop.y, HULL_FACES); c++) {
+        float height = corners[(of_a ? 0u : corner_counts.x) + hull_corners[at.loop.x + c]].w;
+        reach = max(reach, of_a ? height : -height);
     }
     return reach;
 }
 
-// Of the faces that hold the furthest corner of the hull along the axis, the one that faces it most squarely: (alignment, face).
-Seen facingFace(uint side, vec3 n, float furthest) {
+// Of the faces that hold the furthest corner of the hull towards the other, the one that faces it most squarely, as a feature; its
+// alignment as the separation.
+Seen facingFace(bool of_a, vec3 axis, float furthest) {
     Seen seen = seenNothing();
-    for (uint f = lane; f < face_count[side]; f += LANES) {
-        float alignment = dot(faceNormal(side, f), side == 0u ? n : -n);
-        if (reachOf(side, f) >= furthest - pair.rounding) see(seen, alignment, 0.0, 0.0, f);
+    for (uint f = lane; f < (of_a ? face_counts.x : face_counts.y); f += LANES) {
+        float alignment = dot(faceNormal(of_a, f), of_a ? axis : -axis);
+        if (reachOf(of_a, f) >= furthest - pair.rounding) see(seen, alignment, 0.0, 0.0, f);
     }
     return seenByAll(seen);
 }

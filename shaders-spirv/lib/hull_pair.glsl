@@ -18,6 +18,7 @@ struct HullPair {
     float margin;    // points with this separation still count
 };
 
+const float kRounding = 2e-6; // of lengths, after a few products and sums
 // A margin as large as a chip would hold it off the ground.
 const float kMarginShare = 0.1;
 
@@ -43,14 +44,15 @@ HullPair loadPair(uvec2 of, float duration, float speculative) {
     pair.motion *= duration;
     float radius_a = pair.hull[0].center.w, radius_b = pair.hull[1].center.w;
     pair.smaller = min(radius_a, radius_b);
-    pair.rounding = 2e-6 * (radius_a + radius_b);
+    pair.rounding = kRounding * (radius_a + radius_b);
     pair.margin = min(speculative, kMarginShare * pair.smaller);
     return pair;
 }
 
-vec3 cornerAt(HullPair pair, uint side, uint vertex) {
-    vec3 own = hull_vertices[pair.hull[side].first.x + vertex].xyz - pair.hull[side].center.xyz;
-    return side == 0u ? own : pair.axes[1] * own + pair.place[1];
+vec3 cornerAt(HullPair pair, bool of_a, uint vertex) {
+    vec3 own = hull_vertices[(of_a ? pair.hull[0].first.x : pair.hull[1].first.x) + vertex].xyz;
+    own -= of_a ? pair.hull[0].center.xyz : pair.hull[1].center.xyz;
+    return of_a ? own : pair.axes[1] * own + pair.place[1];
 }
 
 #endif

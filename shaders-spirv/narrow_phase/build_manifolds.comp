@@ -47,53 +47,58 @@ struct Touch {
 Touch touches[MANIFOLD_POINTS];
 uint touch_count = 0u;
 
-vec3 shiftedCorner(uint side, uint vertex) { return cornerAt(pair, side, vertex) + (side == 0u ? vec3(0.0) : found.shift.xyz); }
+vec3 shiftedCorner(bool of_a, uint vertex) { return cornerAt(pair, of_a, vertex) + (of_a ? vec3(0.0) : found.shift.xyz); }
 
-uint loadReference(uint side, uint face) {
-    uvec2 loop = hull_faces[pair.hull[side].first.y + face].loop.xy;
+HullFace faceOf(bool of_a, uint face) { return hull_faces[(of_a ? pair.hull[0].first.y : pair.hull[1].first.y) + face]; }
+
+uint loadReference(bool of_a, uint face) {
+    uvec2 loop = faceOf(of_a, face).loop.xy;
     uint count = min(loop.y, FACE_CORNERS);
-    for (uint c = 0u; c < count; c++) reference_at[c] = inPlane(shiftedCorner(side, hull_corners[loop.x + c])).xy;
+    for (uint c = 0u; c < count; c++) reference_at[c] = inPlane(shiftedCorner(of_a, hull_corners[loop.x + c])).xy;
     return count;
 }
 
-uint loadIncident(uint side, uint face) {
-    uvec2 loop = hull_faces[pair.hull[side].first.y + face].loop.xy;
+uint loadIncident(bool of_a, uint face) {
+    uvec2 loop = faceOf(of_a, face).loop.xy;
     uint count = min(loop.y, FACE_CORNERS);
-    for (uint c = 0u; c < count; c++) incident_at[c] = inPlane(shiftedCorner(side, hull_corners[loop.x + c]));
+    for (uint c = 0u; c < count; c++) incident_at[c] = inPlane(shiftedCorner(of_a, hull_corners[loop.x + c]));
     return count;
 }
 
-void gatherCandidates(uint reference_side, uint reference_face, uint incident_face) {
-    spanPlane(reference_side == 0u ? found.axis.xyz : -found.axis.xyz, found.shift.w);
+void gatherCandidates(bool a_leads, uint reference_face, uint incident_face) {
+    spanPlane(a_leads ? found.axis.xyz : -found.axis.xyz, found.shift.w);
     slack = kSlackShare * pair.smaller;
-    reference_count = loadReference(reference_side, reference_face);
-    incident_count = loadIncident(1u - reference_side, incident_face);
-    vec3 n = pair.axes[1u - reference_side] * hull_faces[pair.hull[1u - reference_side].first.y + incident_face].plane.xyz;
+    reference_count = loadReference(a_leads, reference_face);
+    incident_count = loadIncident(!a_leads, incident_face);
+    vec3 n = faceOf(!a_leads, incident_face).plane.xyz;
+    n = a_leads ? pair.axes[1] * n : n;
     candidate_count = 0u;
     addIncidentEdges();
     addReferenceCorners(vec3(dot(plane.u, n), dot(plane.v, n), dot(plane.n, n)));
-    if (candidate_count == 0u && (is_swept || found.axis.w <= 0.0)) addLowest();
+    if (is_swept || found.axis.w <= 0.0) addLowest(found.axis.w);
 }
 
 void touchFaces() {
-    uint side = found.info.y, reference_face = min(found.info.z, HULL_FACES - 1u), incident_face = min(found.info.w, HULL_FACES - 1u);
-    gatherCandidates(side, reference_face, incident_face);
+    bool a_leads = found.info.y == 0u;
+    uint reference_face = min(found.info.z, HULL_FACES - 1u), incident_face = min(found.info.w, HULL_FACES - 1u);
+    gatherCandidates(a_leads, reference_face, incident_face);
     uvec4 picked = chosen();
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         if (picked[k] == NO_INDEX) break;
         vec4 at = candidate_at[picked[k]];
         vec3 incident = outOfPlane(at.xyz), under = outOfPlane(vec3(at.xy, 0.0));
-        uint name = floatBitsToUint(at.w) | incident_face << 14 | reference_face << 20 | side << 26;
-        touches[k] = side == 0u ? Touch(under, incident, name) : Touch(incident, under, name);
+        uint name = floatBitsToUint(at.w) | incident_face << 14 | reference_face << 20 | found.info.y << 26;
+        touches[k] = a_leads ? Touch(under, incident, name) : Touch(incident, under, name);
         touch_count++;
     }
 }
 
 // Hulls that are apart further than the margin at the ends of these edges do not touch.
 void touchEdges() {
-    uvec2 a = hull_edges[pair.hull[0].first.w + found.info.x / 256u % 256u].xy, b = hull_edges[pair.hull[1].first.w + found.info.x % 256u].xy;
-    vec3 p = shiftedCorner(0u, a.x), q = shiftedCorner(1u, b.x);
-    vec3 d = shiftedCorner(0u, a.y) - p, e = shiftedCorner(1u, b.y) - q, w = p - q;
+    uvec2 a = hull_edges[pair.hull[0].first.w + ((found.info.x >> 8) & 0xffu)].xy;
+    uvec2 b = hull_edges[pair.hull[1].first.w + (found.info.x & 0xffu)].xy;
+    vec3 p = shiftedCorner(true, a.x), q = shiftedCorner(false, b.x);
+    vec3 d = shiftedCorner(true, a.y) - p, e = shiftedCorner(false, b.y) - q, w = p - q;
     float dd = dot(d, d), de = dot(d, e), ee = dot(e, e), dw = dot(d, w), ew = dot(e, w);
     float denominator = max(dd * ee - de * de, 1e-37);
     float s = clamp((de * ew - ee * dw) / denominator, 0.0, 1.0), t = clamp((dd * ew - de * dw) / denominator, 0.0, 1.0);

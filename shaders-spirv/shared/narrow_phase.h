@@ -14,9 +14,6 @@ GPU_NAMESPACE_BEGIN
 #define AXIS_FIXED 4u
 #define AXIS_KIND_SHIFT 24u
 
-// Specialization constant of find_axes: pairs of opposite directions, 0 for all axes of the two hulls.
-#define FIXED_AXES_ID 0
-
 // The axis along which a pair touches, in the frame of A: its body's axes, from the center of A's hull.
 struct AxisRecord {
     vec4 axis;  // unit, from A to B; w: separation along it where B has gone by the shift
@@ -28,7 +25,7 @@ struct NarrowPhasePush {
     float speculative; // m
     float duration;    // of the step in seconds; 0: nothing is swept
     uint capacity;     // pairs
-    uint pad;
+    uint fixed_axes; // directions, of find_fixed_axes
 };
 
 GPU_NAMESPACE_END

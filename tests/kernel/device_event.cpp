@@ -95,7 +95,9 @@ void DeviceEvent::recordOnce(Until until) {
         clear(commands);
         upload(commands, staging);
         brittle::Recorder recorder(commands, kernels(), buffers_.counts, buffers_.args);
-        recordUntil({solid_.mesh, options_, grid_, columns_, capacity_, buffers_, pools_, recorder, brittle::Search::Grid, 7500}, until);
+        recordUntil(
+            {solid_.mesh, options_, grid_, columns_, capacity_, buffers_, pools_, recorder, brittle::Search::Grid, 7500},
+            until);
         EXPECT_TRUE(recorder.status().has_value());
     });
     words_ = read<uint32_t>(buffers_.counts, STATUS_WORDS);

@@ -122,11 +122,9 @@ TEST(SmallManifold, IsThereUpToTheSpeculativeDistance) {
     EXPECT_EQ(manifolds[1].info.x, 0u);
 }
 
-// Points of more than four candidates lie as far apart as the face allows, and hold the deepest.
-TEST(SmallManifold, OfARoundFaceKeepsTheDeepestAndSpreadsTheRest) {
-    HullScene scene;
+// Of radius 1 and height 0.4; with 62 sides it has as many faces, vertices and edges as a hull may have.
+Shape drumShape(uint32_t sides) {
     Shape drum;
-    const uint32_t sides = 20;
     drum.loops.resize(2);
     for (uint32_t k = 0; k < sides; ++k) {
         const double angle = 4 * kRight * k / sides;
@@ -137,7 +135,29 @@ TEST(SmallManifold, OfARoundFaceKeepsTheDeepestAndSpreadsTheRest) {
         drum.loops[0].insert(drum.loops[0].begin(), 2 * k);
         drum.loops.push_back({2 * k, 2 * next, 2 * next + 1, 2 * k + 1});
     }
-    const uint32_t ground = scene.add(boxShape({5, 5, 1})), wheel = scene.add(drum);
+    return drum;
+}
+
+// All pairs of 186 edges are looked at where the two fly at each other.
+TEST(SmallManifold, OfTheLargestHullsIsWhole) {
+    HullScene scene;
+    const uint32_t drum = scene.add(drumShape(62));
+    scene.addPair({drum}, {drum, {0, 0, .399}});
+    scene.addPair({drum}, {drum, {4, 0, 0}, turnAbout({1, 0, 0}, kRight), {-300, 0, 0}});
+    const auto manifolds = manifoldsOf(scene);
+    ASSERT_EQ(manifolds[0].info.x, 4u);
+    expectUp(manifolds[0]);
+    EXPECT_NEAR(deepestOf(manifolds[0]), -.001, 1e-6);
+    ASSERT_EQ(manifolds[1].info.x, 1u);
+    EXPECT_NEAR(manifolds[1].normal.x, 1, 1e-5);
+    EXPECT_NEAR(manifolds[1].points[0].arm_a.w, 2, 1e-5);
+    EXPECT_NEAR(manifolds[1].points[0].arm_a.x, 1, 1e-5);
+}
+
+// Points of more than four candidates lie as far apart as the face allows, and hold the deepest.
+TEST(SmallManifold, OfARoundFaceKeepsTheDeepestAndSpreadsTheRest) {
+    HullScene scene;
+    const uint32_t ground = scene.add(boxShape({5, 5, 1})), wheel = scene.add(drumShape(20));
     scene.addPair({ground, {0, 0, -1}}, {wheel, {0, 0, .199}, turnAbout({0, 1, 0}, 1e-3)});
     const gpu::Manifold m = manifoldsOf(scene)[0];
     ASSERT_EQ(m.info.x, 4u);

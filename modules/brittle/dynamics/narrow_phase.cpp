@@ -49,7 +49,7 @@ struct Kernels {
 Result<Kernels> kernelsOf(engine::KernelLibrary& library, uint32_t fixed_axes, bool many_lanes) {
     const auto size = library.get("size_narrow_phase");
     if (!size) return size.error();
-    const auto axes = library.get(many_lanes ? "find_axes_wide" : "find_axes", {fixed_axes / 2});
+    const auto axes = library.get(fixed_axes > 0 ? "find_fixed_axes" : many_lanes ? "find_axes_wide" : "find_axes");
     if (!axes) return axes.error();
     const auto manifolds = library.get("build_manifolds");
     if (!manifolds) return manifolds.error();
@@ -65,7 +65,7 @@ Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary
     const auto kernels = kernelsOf(library, options.fixed_axes, many_lanes);
     if (!kernels) return kernels.error();
 
-    const gpu::NarrowPhasePush push = {options.speculative, options.duration, input.capacity, 0};
+    const gpu::NarrowPhasePush push = {options.speculative, options.duration, input.capacity, options.fixed_axes};
     const HullPools& hulls = input.hulls;
     commands.dispatchGroups(*kernels->size, 1, push, {input.pair_count, output.arguments});
     commands.dispatchIndirect(*kernels->axes, output.arguments.sub(0, 12), push,
