@@ -85,9 +85,9 @@ PointHull expectHull(const Points& points) {
     if (!made) return {};
     const double size = sizeOf(points);
     const reference::Convex solid = asReference(made->hull);
-    EXPECT_EQ(reference::defectOf(solid, 10 * kHullTolerance * size), "");
+    EXPECT_EQ(reference::defectOf(solid, kFaceDepth * kHullTolerance * size), "");
     for (const Double3& p : points)
-        EXPECT_LE(reference::distanceOutside(solid, p), 10 * kHullTolerance * size);
+        EXPECT_LE(reference::distanceOutside(solid, p), kFaceDepth * kHullTolerance * size);
     EXPECT_LE(made->hull.faces.size(), kMaxHullFaces);
     EXPECT_LE(made->hull.vertices.size(), kMaxHullVertices);
     expectEdges(made->hull);
@@ -100,6 +100,12 @@ Points boxPoints(const Double3& size) {
     for (int v = 0; v < 8; ++v)
         points.push_back({v & 1 ? size[0] : 0, v & 2 ? size[1] : 0, v & 4 ? size[2] : 0});
     return points;
+}
+
+// The k-th of a cube of `side` points a side, one meter apart.
+Double3 latticePoint(int k, int side) {
+    const int column = k % side, row = k / side % side, layer = k / (side * side);
+    return {double(column), double(row), double(layer)};
 }
 
 Points spherePoints(Dice& dice, int count) {
@@ -147,7 +153,7 @@ TEST(SmallSceneHull, IsTheBruteForceHull) {
 TEST(SmallSceneHull, OfALatticeHasFlatFaces) {
     Points points;
     for (int k = 0; k < 5 * 5 * 5; ++k)
-        points.push_back({double(k % 5), double(k / 5 % 5), double(k / 25)});
+        points.push_back(latticePoint(k, 5));
     const PointHull cube = expectHull(points);
     EXPECT_EQ(cube.hull.faces.size(), 6u);
     EXPECT_EQ(cube.hull.vertices.size(), 8u);
@@ -166,7 +172,7 @@ TEST(SmallSceneHull, JoinsWhatIsFlatButForTheRoundingOfFloats) {
         const double scale = std::pow(10.0, round % 9 - 4);
         Points points;
         for (int k = 0; k < 27; ++k) {
-            Double3 p = scale * (double(k % 3) * x + double(k / 3 % 3) * y + double(k / 9) * z);
+            Double3 p = scale * (latticePoint(k, 3)[0] * x + latticePoint(k, 3)[1] * y + latticePoint(k, 3)[2] * z);
             for (double& c : p)
                 c = static_cast<double>(static_cast<float>(c));
             points.push_back(p);
@@ -251,6 +257,46 @@ TEST(SmallSceneHull, OfThirtyFourPointsOnASphereFitsAsItIs) {
     EXPECT_EQ(ball.hull.vertices.size(), 34u);
     EXPECT_EQ(ball.hull.faces.size(), 64u);
     EXPECT_EQ(ball.notes.loosened, 0);
+}
+
+// Prisms, cones, lattices and balls, with jitter from none to a thousandth: around the tolerance planes and points are neither
+// one nor two.
+Points jittered(Dice& dice, int round) {
+    const int sides = 3 + round % 29;
+    const double jitter = round % 13 == 0 ? 0 : std::pow(10.0, dice.between(-9, -3));
+    Points points;
+    for (int k = 0; k < sides; ++k) {
+        const double angle = 2 * M_PI * k / sides;
+        const Double3 rim = {std::cos(angle), std::sin(angle), 0};
+        switch (round % 4) {
+        case 0: points.insert(points.end(), {rim + Double3{0, 0, 1}, rim - Double3{0, 0, 1}}); break;
+        case 1: points.insert(points.end(), {rim, Double3{0, 0, 1}}); break;
+        case 2: points.push_back(latticePoint(k, 3)); break;
+        default: points.push_back(dice.onSphere());
+        }
+    }
+    if (round % 4 == 3 || sides < 10) points.insert(points.end(), {{0, 0, 2}, {0, 0, -2}, {2, 0, 0}, {0, 2, 0}});
+    for (Double3& p : points)
+        p = p + jitter * dice.inCube();
+    return points;
+}
+
+TEST(SceneHull, StandsJitterOfAnySize) {
+    Dice dice(7);
+    for (int round = 0; round < 2000; ++round) {
+        SCOPED_TRACE(round);
+        expectHull(jittered(dice, round));
+        if (testing::Test::HasFailure()) return;
+    }
+}
+
+TEST(LongSceneHull, StandsJitterOfAnySize) {
+    Dice dice(8);
+    for (int round = 0; round < 20'000; ++round) {
+        SCOPED_TRACE(round);
+        expectHull(jittered(dice, round));
+        if (testing::Test::HasFailure()) return;
+    }
 }
 
 TEST(SceneHull, HoldsWholeModels) {

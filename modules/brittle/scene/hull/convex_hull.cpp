@@ -81,19 +81,42 @@ bool linkEdges(ConvexHull& hull) {
     return hull.vertices.size() + hull.faces.size() == hull.edges.size() + 2;
 }
 
+engine::Error notMade(const std::string& why) {
+    return {engine::ErrorCode::Internal, "no hull of these points: " + why + "; move them a little"};
+}
+
 engine::Result<ConvexHull> assemble(const std::vector<Double3>& points, std::vector<PointFace> faces) {
-    const auto broken = [](const std::string& what) {
-        return engine::Error{engine::ErrorCode::Internal, "no hull of these points: " + what + "; move them a little"};
-    };
     for (const PointFace& face : faces)
-        if (face.loop.size() < 3) return broken("a face has no outline");
+        if (face.loop.size() < 3) return notMade("a face has no outline");
     ConvexHull hull;
     hull.vertices = takeCorners(points, faces);
     order(faces, hull.vertices);
     for (const PointFace& face : faces)
         addFace(hull, face);
-    if (!linkEdges(hull)) return broken("its faces do not close up");
+    if (!linkEdges(hull)) return notMade("its faces do not close up");
     return hull;
+}
+
+// The furthest that a corner lies below its own face's plane.
+double depthOfFaces(const ConvexHull& hull) {
+    double depth = 0;
+    for (const ConvexHull::Face& face : hull.faces)
+        for (uint32_t k = 0; k < face.corner_count; ++k)
+            depth = std::max(depth, face.height - dot(face.normal, hull.vertices[hull.corners[face.first_corner + k]]));
+    return depth;
+}
+
+// Neighbors that are flat to the tolerance become one face. Where many in a row are nearly flat, faces may grow less flat than
+// is promised, or not close up; then less and less is joined, and in the end nothing but what is flat to rounding.
+engine::Result<ConvexHull> hullOfClean(const CleanPoints& clean) {
+    engine::Error last;
+    for (const double share : {1.0, 0.1, 0.01, 0.0}) {
+        auto faces = facesOfHull(clean, share * kHullTolerance);
+        auto hull = faces ? assemble(clean.points, std::move(*faces)) : faces.error();
+        if (hull && depthOfFaces(*hull) <= kFaceDepth * kHullTolerance * clean.size) return hull;
+        last = hull ? notMade("its faces are not flat") : hull.error();
+    }
+    return last;
 }
 
 } // namespace
@@ -101,9 +124,7 @@ engine::Result<ConvexHull> assemble(const std::vector<Double3>& points, std::vec
 engine::Result<PointHull> fullHullOfPoints(std::span<const Double3> points) {
     const auto clean = cleanPoints(points);
     if (!clean) return clean.error();
-    auto faces = facesOfHull(*clean);
-    if (!faces) return faces.error();
-    auto hull = assemble(clean->points, std::move(*faces));
+    auto hull = hullOfClean(*clean);
     if (!hull) return hull.error();
     PointHull result;
     result.measures = measure(*hull);

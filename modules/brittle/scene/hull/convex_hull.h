@@ -21,11 +21,12 @@ constexpr uint32_t kMaxHullFaces = 64, kMaxHullVertices = 124, kMaxHullEdges = 1
 // Lengths in parts of the diagonal of the points' box. Nearer points are one; faces whose planes differ by less are one; what
 // is thinner is flat. A float has 24 bits: coordinates that went through one are off by a sixteenth of this at most.
 constexpr double kHullTolerance = 1e-6;
+constexpr double kFaceDepth = 10; // in tolerances: no corner of a face lies further below its plane
 
 struct ConvexHull {
     struct Face {
-        Double3 normal = {0, 0, 0}; // outward, unit
-        double height = 0;          // along the normal; no vertex lies beyond it, the face's own at most 10 tolerances below
+        Double3 normal = {0, 0, 0};                  // outward, unit
+        double height = 0;                           // along the normal; no vertex lies beyond it
         uint32_t first_corner = 0, corner_count = 0; // in `corners`, counterclockwise seen from outside
     };
     struct Edge {

@@ -35,6 +35,7 @@ std::vector<Plane> boxPlanes(const ConvexHull& hull) {
 // Corners of the solid behind all planes, by duality about a place inside: the hull of the planes' poles has a face for each.
 engine::Result<std::vector<Double3>> cornersOf(const std::vector<Plane>& planes, const Double3& inside) {
     std::vector<Double3> poles;
+    poles.reserve(planes.size());
     for (const Plane& plane : planes)
         poles.push_back(1 / (plane.height - dot(plane.normal, inside)) * plane.normal);
     const auto dual = fullHullOfPoints(poles);

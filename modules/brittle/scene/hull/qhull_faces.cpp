@@ -1,7 +1,7 @@
 #include "modules/brittle/scene/hull/qhull_faces.h"
 
+#include "modules/brittle/mesh/format.h"
 #include "modules/brittle/mesh/vector_math.h"
-#include "modules/brittle/scene/hull/convex_hull.h"
 
 #include <libqhull_r/libqhull_r.h>
 
@@ -47,7 +47,7 @@ public:
     Qhull(const Qhull&) = delete;
     Qhull& operator=(const Qhull&) = delete;
 
-    engine::Result<std::vector<PointFace>> run(std::vector<coordT> coordinates);
+    engine::Result<std::vector<PointFace>> run(std::vector<coordT> coordinates, double flatness);
 
 private:
     PointFace faceFrom(const facetT& facet) const;
@@ -101,9 +101,9 @@ PointFace Qhull::faceFrom(const facetT& facet) const {
     return face;
 }
 
-engine::Result<std::vector<PointFace>> Qhull::run(std::vector<coordT> coordinates) {
+engine::Result<std::vector<PointFace>> Qhull::run(std::vector<coordT> coordinates, double flatness) {
     // C-n merges what is flatter than n, Pp leaves out advice about precision.
-    std::string command = "qhull C-" + std::to_string(kHullTolerance) + " Pp";
+    std::string command = "qhull C-" + formatNumber(flatness) + " Pp";
     const int failed = qh_new_qhull(&state_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False,
                                     command.data(), nullptr, report_.file());
     if (failed != 0) return engine::Error{engine::ErrorCode::Internal, "no hull of these points: " + report_.firstLine()};
@@ -115,13 +115,13 @@ engine::Result<std::vector<PointFace>> Qhull::run(std::vector<coordT> coordinate
 
 } // namespace
 
-engine::Result<std::vector<PointFace>> facesOfHull(const CleanPoints& clean) {
+engine::Result<std::vector<PointFace>> facesOfHull(const CleanPoints& clean, double flatness) {
     // About the middle and of size 1, so that tolerances are the same for all.
     std::vector<coordT> coordinates;
     for (const Double3& p : clean.points)
         for (size_t c = 0; c < 3; ++c)
             coordinates.push_back((p[c] - clean.middle[c]) / clean.size);
-    return Qhull().run(std::move(coordinates));
+    return Qhull().run(std::move(coordinates), flatness);
 }
 
 } // namespace brittle

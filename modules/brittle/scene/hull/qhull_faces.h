@@ -11,7 +11,8 @@ struct PointFace {
     std::vector<uint32_t> loop; // points, once around the face, either way
 };
 
-// Flat neighbors are one face already. Errors: Internal (Qhull gave up), with what it said.
-engine::Result<std::vector<PointFace>> facesOfHull(const CleanPoints& clean);
+// Neighbors are one face already where the middle of one lies within `flatness`, in parts of the points' size, of the other's
+// plane. Errors: Internal (Qhull gave up), with what it said.
+engine::Result<std::vector<PointFace>> facesOfHull(const CleanPoints& clean, double flatness);
 
 } // namespace brittle

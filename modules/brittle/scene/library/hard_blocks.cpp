@@ -68,7 +68,8 @@ SceneDescription crowdedSlab(uint32_t cubes) {
     const double spacing = 0.5, width = spacing * side + 1;
     addBox(scene, {width, 0.5, width}, {0, 0.25, 0}).name = "slab";
     for (uint32_t k = 0; k < cubes; ++k) {
-        const double x = spacing * (k % side - 0.5 * (side - 1)), z = spacing * (k / side - 0.5 * (side - 1));
+        const uint32_t row = k / side, column = k % side;
+        const double x = spacing * (column - 0.5 * (side - 1)), z = spacing * (row - 0.5 * (side - 1));
         addBox(scene, {0.4, 0.4, 0.4}, {x, 0.7, z});
     }
     return scene;

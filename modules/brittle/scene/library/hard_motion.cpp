@@ -97,7 +97,8 @@ SceneDescription slivers(uint32_t millimeters) {
     const double spacing = 1.25;
     for (uint32_t k = 0; k < 30; ++k) {
         const Double3 tip = {dice.between(-0.2, 0.2), 1e-3 * millimeters, dice.between(-0.2, 0.2)};
-        const Double3 place = {spacing * (k % 2 - 0.5), 1 + spacing * (k / 4), spacing * (k / 2 % 2 - 0.5)};
+        const uint32_t layer = k / 4, row = k / 2 % 2, column = k % 2;
+        const Double3 place = {spacing * (column - 0.5), 1 + spacing * layer, spacing * (row - 0.5)};
         BodyDescription& sliver = addHull(scene, {{-0.5, 0, -0.3}, {0.5, 0, -0.3}, {0, 0, 0.5}, tip}, place);
         sliver.turn = dice.turn();
     }

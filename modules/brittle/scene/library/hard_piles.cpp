@@ -36,9 +36,8 @@ SceneDescription hullPile(uint32_t hulls) {
     addPit(scene, 0.5 * side * spacing + 0.3, {.friction = 0.5});
     Dice dice(12345);
     for (uint32_t k = 0; k < hulls; ++k) {
-        const uint32_t in_layer = k % (side * side);
-        const Double3 middle = {spacing * (in_layer % side - 0.5 * (side - 1)), 1 + spacing * (k / (side * side)),
-                                spacing * (in_layer / side - 0.5 * (side - 1))};
+        const uint32_t layer = k / (side * side), row = k / side % side, column = k % side;
+        const Double3 middle = {spacing * (column - 0.5 * (side - 1)), 1 + spacing * layer, spacing * (row - 0.5 * (side - 1))};
         const Double3 shift = {dice.between(-0.05, 0.05), 0, dice.between(-0.05, 0.05)};
         BodyDescription& body = addHull(scene, randomHullPoints(dice), middle + shift);
         body.turn = dice.turn();
