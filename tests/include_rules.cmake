@@ -21,4 +21,7 @@ rule(engine "shaders-spirv/shared/(fracture|fragment)" "the engine knows no frac
 rule(modules "(tools|tests)/" "modules know no program")
 rule(modules/brittle/mesh "(volk|vulkan)" "the mesh knows no Vulkan")
 rule(modules "assimp/" "only mesh/import sees assimp" EXCEPT modules/brittle/mesh/import.cpp)
+rule(modules "toml\\+\\+/" "only read_scene sees toml++" EXCEPT modules/brittle/scene/read_scene.cpp)
+rule(modules "libqhull" "only qhull_faces sees Qhull" EXCEPT modules/brittle/scene/hull/qhull_faces.cpp)
+rule(modules/brittle/scene "(volk|vulkan)" "a scene has met no device")
 rule(tests/reference "(engine|modules/brittle/(fracture|export))|shaders-spirv" "an oracle shares no code with what it checks")

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# tools/fuzz.sh [SECONDS]: fuzzes the importers and the mending of meshes for that many seconds of one core (default 1800, half
-# an hour), as many formats at a time as there are cores. What it learns stays in build/fuzz/corpus for the next time. A format
-# stops at its first finding, which lies in build/fuzz/findings; build/fuzz/bin/brittle_fuzz_FORMAT FILE shows it again.
-# The suite (tools/test.sh) runs the same for one minute.
+# tools/fuzz.sh [SECONDS]: fuzzes the importers, the mending of meshes and the reader of scenes for that many seconds of one core
+# (default 1800, half an hour), as many formats at a time as there are cores. What it learns stays in build/fuzz/corpus for the
+# next time. A format stops at its first finding, which lies in build/fuzz/findings; build/fuzz/bin/brittle_fuzz_FORMAT FILE shows
+# it again. The suite (tools/test.sh) runs the same for about a minute.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -30,10 +30,11 @@ while read -r format percent max_bytes; do
   time=$((seconds * percent / 100))
   echo "$format $((time > 0 ? time : 1)) $max_bytes"
 done <<FORMATS | xargs -P "$(nproc)" -L 1 bash -c 'run "$@"' run
-obj 22 8192
-ply 22 8192
-off 18 8192
-stl 18 8192
+obj 20 8192
+ply 20 8192
+off 15 8192
+stl 15 8192
+toml 10 4096
 glb 5 24576
 gltf 5 24576
 fbx 5 24576

@@ -9,7 +9,7 @@ packages=(
   # Vulkan: headers, loader, a CPU device for machines without a GPU, layers for the tests
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
   # libraries
-  libassimp-dev libcli11-dev libeigen3-dev libstb-dev libtinygltf-dev nlohmann-json3-dev
+  libassimp-dev libcli11-dev libeigen3-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
   # tests, and the peers of the bench
   libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libcgal-dev libgmp-dev libmpfr-dev voro++-dev
 )

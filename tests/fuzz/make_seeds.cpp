@@ -1,8 +1,10 @@
 // make_seeds FOLDER: writes FOLDER/obj, off, ply, stl, gltf, glb, fbx and dae with small models for the fuzzers to start from,
-// sound and spoiled in the ways that mending is about.
+// sound and spoiled in the ways that mending is about, and FOLDER/toml with small scenes.
 #include "modules/brittle/export/model_file.h"
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/primitives.h"
+#include "modules/brittle/scene/library/builtin_scenes.h"
+#include "modules/brittle/scene/scene_file.h"
 #include "tests/support/solids.h"
 
 #include <assimp/Exporter.hpp>
@@ -166,6 +168,14 @@ void writeOthers(const fs::path& folder, const fs::path& obj) {
     }
 }
 
+void writeScenes(const fs::path& folder) {
+    for (const SceneEntry& entry : builtinScenes())
+        if (const std::string text = writeScene(*makeBuiltinScene(entry.name)); text.size() < 4096)
+            write(folder / (entry.name + ".toml"), text);
+    for (const RefusedScene& refused : refusedScenes())
+        write(folder / (refused.scene.name + ".toml"), writeScene(refused.scene));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -183,5 +193,6 @@ int main(int argc, char** argv) {
         write(folder / "stl" / (name + "_text.stl"), stlTextOf(mesh));
         writeOthers(folder, folder / "obj" / (name + ".obj"));
     }
+    writeScenes(folder / "toml");
     return 0;
 }

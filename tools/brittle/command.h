@@ -15,6 +15,7 @@ using AddCommand = void (*)(CLI::App& app, int& exit_code);
 void addShatter(CLI::App& app, int& exit_code);
 void addDevices(CLI::App& app, int& exit_code);
 void addDoctor(CLI::App& app, int& exit_code);
+void addScenes(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code); // in tools/bench
 
 // A check of the option that sets the lanes of a workgroup: empty if it is right, else what is wrong. Whether the device takes

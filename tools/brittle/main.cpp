@@ -5,7 +5,7 @@
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor, cli::addBench};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor, cli::addScenes, cli::addBench};
 
 constexpr const char* kFooter =
     "Examples:\n"

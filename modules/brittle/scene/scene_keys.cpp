@@ -1,0 +1,252 @@
+#include "modules/brittle/scene/scene_keys.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace brittle {
+namespace {
+
+// ---- where a key's value is -----------------------------------------------------------------------------------------------
+
+template <class>
+struct OwnerOfMember;
+template <class Owner, class Value>
+struct OwnerOfMember<Value Owner::*> {
+    using Type = Owner;
+};
+
+template <class Value>
+ValueRef refTo(Value& value) {
+    // Enumerations of scenes are bytes, which may be read and written as such.
+    if constexpr (std::is_enum_v<Value>)
+        return ChoiceRef{reinterpret_cast<uint8_t*>(&value)};
+    else
+        return &value;
+}
+
+// The member, or the member of a member and so on, of whatever owns the first.
+template <auto First, auto... Rest>
+ValueRef at(void* owner) {
+    auto& object = *static_cast<typename OwnerOfMember<decltype(First)>::Type*>(owner);
+    return refTo(((object.*First).*....*Rest));
+}
+
+template <size_t... Sizes>
+constexpr auto joined(const std::array<SceneKey, Sizes>&... parts) {
+    std::array<SceneKey, (Sizes + ...)> all{};
+    size_t next = 0;
+    const auto append = [&](const auto& part) {
+        for (const SceneKey& key : part)
+            all[next++] = key;
+    };
+    (append(parts), ...);
+    return all;
+}
+
+// ---- what values may be ---------------------------------------------------------------------------------------------------
+
+constexpr std::string_view kShapes[] = {"box", "ball", "hull", "mesh", "plane"};
+constexpr std::string_view kBodyShapes[] = {"box", "ball", "hull", "mesh"};
+constexpr std::string_view kPatterns[] = {"uniform", "impact", "paper"};
+constexpr std::string_view kSolvers[] = {"soft", "hard"};
+constexpr std::string_view kAxes[] = {"all", "fixed"};
+constexpr std::string_view kMaterials[] = {"glass", "tempered_glass", "porcelain", "concrete", "brick", "ice", "stone"};
+constexpr std::string_view kEffects[] = {"gravity",         "contacts",   "friction", "restitution",     "ccd",    "sleeping",
+                                         "impact_fracture", "refracture", "dust",     "debris_lifetime", "events", "drag"};
+constexpr uint32_t kDirections[] = {6, 14, 26, 62};
+
+constexpr Allowed kAnything;
+constexpr double kEndOfWorld = 1e9, kFastest = 1e5, kLargest = 1e5, kMostElements = 10'000'000;
+
+constexpr Allowed from(double lower, double upper) { return {.lower = lower, .upper = upper}; }
+constexpr Allowed above(double lower, double upper) { return {.lower = lower, .upper = upper, .above_lower = true}; }
+constexpr Allowed oneOf(std::span<const std::string_view> names) { return {.names = names}; }
+
+constexpr ShapeBits kBox = bitOf(ShapeKind::Box), kBall = bitOf(ShapeKind::Ball), kHull = bitOf(ShapeKind::Hull),
+                    kMesh = bitOf(ShapeKind::Mesh);
+
+// ---- the keys -------------------------------------------------------------------------------------------------------------
+
+constexpr SceneKey kSceneKeys[] = {
+    {"name", at<&SceneDescription::name>, kAnything, "", "what the scene is called"},
+    {"comment", at<&SceneDescription::comment>, kAnything, "", "what it is about; the first line is shown in lists"},
+    {"gravity", at<&SceneDescription::gravity>, from(-1e4, 1e4), "m/s2", "acts where `effects` has gravity"},
+    {"effects", at<&SceneDescription::effects>, oneOf(kEffects), "",
+     "what the scene calls for; whatever is not in the list costs nothing"},
+};
+
+constexpr SceneKey kStepKeys[] = {
+    {"dt", at<&StepDescription::dt>, from(1e-6, 0.5), "s", "of one step"},
+    {"steps", at<&StepDescription::steps>, from(0, 1e9), "", "how many are simulated"},
+    {"substeps", at<&StepDescription::substeps>, from(1, 256), "", "of one step, in which contacts are solved"},
+    {"iterations", at<&StepDescription::iterations>, from(1, 256), "", "over all contacts in a substep"},
+    {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
+     "soft impulses, or the hard mode for great mass ratios and deep overlap"},
+    {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e5), "1/s", "stiffness of soft contacts"},
+    {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},
+    {"push_out", at<&StepDescription::push_out>, from(0, 1e3), "m/s", "at most so fast overlap is undone"},
+    {"margin", at<&StepDescription::margin>, from(0, 10), "m", "contacts are looked for at this distance already"},
+    {"recycling", at<&StepDescription::recycling>, kAnything, "", "contacts at rest keep their anchors from step to step"},
+    {"axes", at<&StepDescription::axes>, oneOf(kAxes), "",
+     "separating axes: all of two hulls, or a fixed set, which is looser and cheaper"},
+};
+
+constexpr SceneKey kBudgetKeys[] = {
+    {"bodies", at<&BudgetDescription::bodies>, from(0, kMostElements), "", "at most; 0: what the scene needs"},
+    {"pieces", at<&BudgetDescription::pieces>, from(0, kMostElements), "", "convex ones, at most; 0: what the scene needs"},
+    {"pairs", at<&BudgetDescription::pairs>, from(0, kMostElements), "", "of pieces that are near, at most; 0: what is needed"},
+    {"contacts", at<&BudgetDescription::contacts>, from(0, kMostElements), "", "manifolds, at most; 0: what is needed"},
+};
+
+constexpr SceneKey kCameraKeys[] = {
+    {"eye", at<&CameraDescription::eye>, from(-kEndOfWorld, kEndOfWorld), "m", "where pictures are taken from"},
+    {"target", at<&CameraDescription::target>, from(-kEndOfWorld, kEndOfWorld), "m", "what is in their middle"},
+    {"up", at<&CameraDescription::up>, from(-1e3, 1e3), "", "a direction"},
+    {"field_of_view", at<&CameraDescription::field_of_view>, from(1, 170), "degrees", "from the top to the bottom"},
+    {"width", at<&CameraDescription::width>, from(16, 8192), "pixels", "of pictures"},
+    {"height", at<&CameraDescription::height>, from(16, 8192), "pixels", "of pictures"},
+};
+
+template <class Owner, auto Member>
+constexpr auto kInShape = at<&Owner::shape, Member>;
+template <auto Member>
+constexpr auto kInCells = at<&BodyDescription::shape, &ShapeDescription::cells, Member>;
+
+// What bodies and colliders have in common: a form and a place.
+template <class Owner>
+constexpr auto kPlacedKeys = std::to_array<SceneKey>({
+    {"size", kInShape<Owner, &ShapeDescription::size>, above(0, kLargest), "m", "its edges", kBox},
+    {"radius", kInShape<Owner, &ShapeDescription::radius>, above(0, kLargest), "m", "its radius", kBall},
+    {"corners", kInShape<Owner, &ShapeDescription::corners>, from(4, kMaxBallCorners), "",
+     "points spread over the ball, whose hull it is", kBall},
+    {"points", kInShape<Owner, &ShapeDescription::points>, from(-kLargest, kLargest), "m",
+     "whose hull it is; one of more than 64 faces is replaced by a looser one that holds it", kHull},
+    {"file", kInShape<Owner, &ShapeDescription::file>, kAnything, "",
+     "a model, from the scene file's folder, or builtin:NAME; for a hull only its vertices count", kHull | kMesh},
+    {"scale", kInShape<Owner, &ShapeDescription::scale>, above(0, kLargest), "", "makes the model larger, along its own axes",
+     kHull | kMesh},
+    {"place", at<&Owner::place>, from(-kEndOfWorld, kEndOfWorld), "m", "of the shape's own origin"},
+    {"turn", at<&Owner::turn>, from(-1e3, 1e3), "", "a quaternion [x, y, z, w], or { axis = [x, y, z], degrees = d }"},
+    {"friction", at<&Owner::surface, &SurfaceDescription::friction>, from(0, 10), "", "coefficient of Coulomb friction"},
+    {"restitution", at<&Owner::surface, &SurfaceDescription::restitution>, from(0, 1), "",
+     "speed after a bounce over speed before; acts where `effects` has restitution"},
+});
+
+// Cells in which a body is broken, or will break.
+constexpr auto kCellKeys = std::to_array<SceneKey>({
+    {"sites", kInCells<&CellsDescription::sites>, from(0, 1'000'000), "",
+     "cells that a body consists of, without a gap; 0: one piece, which a model cannot be", kBox | kMesh},
+    {"seed", kInCells<&CellsDescription::seed>, from(0, 1e15), "", "of the sites' places", kBox | kMesh},
+    {"pattern", kInCells<&CellsDescription::pattern>, oneOf(kPatterns), "", "how sites are placed", kBox | kMesh},
+    {"at", kInCells<&CellsDescription::at>, from(-kLargest, kLargest), "m",
+     "of the blow that sites crowd about, in the body's frame", kBox | kMesh},
+    {"strength", kInCells<&CellsDescription::strength>, above(0, 1e12), "J", "of that blow", kBox | kMesh},
+    {"directions",
+     kInCells<&CellsDescription::directions>,
+     {.numbers = kDirections},
+     "",
+     "in which the piece of a cell is made tight",
+     kBox | kMesh},
+    {"broken", kInCells<&CellsDescription::broken>, kAnything, "",
+     "every cell is a body of its own from the start, at rest against its neighbors", kBox | kMesh},
+    {"inflate", kInCells<&CellsDescription::inflate>, from(0, 1), "m",
+     "pieces are made larger by this on all sides, so that neighbors overlap", kBox | kMesh},
+});
+
+constexpr auto kBodyKeys = joined(
+    std::to_array<SceneKey>({
+        {"name", at<&BodyDescription::name>, kAnything, "", "for messages; bodies of one scene have different ones"},
+        {"shape", kInShape<BodyDescription, &ShapeDescription::kind>, oneOf(kBodyShapes), "",
+         "a box, a ball of flat faces, a convex hull, a closed model"},
+    }),
+    kPlacedKeys<BodyDescription>,
+    std::to_array<SceneKey>({
+        {"velocity", at<&BodyDescription::velocity>, from(-kFastest, kFastest), "m/s", "of the center of mass"},
+        {"spin", at<&BodyDescription::spin>, from(-kFastest, kFastest), "rad/s", "angular velocity"},
+        {"density", at<&BodyDescription::density>, above(0, 1e6), "kg/m3", "1000 where neither it nor mass is given"},
+        {"mass", at<&BodyDescription::mass>, above(0, 1e15), "kg", "instead of density"},
+        {"material", at<&BodyDescription::material>, oneOf(kMaterials), "", "that it breaks as; without one it does not break"},
+    }),
+    kCellKeys);
+
+constexpr auto kColliderKeys =
+    joined(std::to_array<SceneKey>({
+               {"name", at<&ColliderDescription::name>, kAnything, "", "for messages"},
+               {"shape", kInShape<ColliderDescription, &ShapeDescription::kind>, oneOf(kShapes), "",
+                "a plane bounds all below it, where its frame's y axis is up; a mesh is taken as the triangles it is"},
+           }),
+           kPlacedKeys<ColliderDescription>);
+
+constexpr SceneSection kSections[] = {
+    {SectionId::Scene, "", false, kSceneKeys, "At the top of the file."},
+    {SectionId::Step, "step", false, kStepKeys, "How time goes on and contacts are solved."},
+    {SectionId::Budgets, "budgets", false, kBudgetKeys, "Room on the device. What does not fit is reported, never dropped."},
+    {SectionId::Camera, "camera", false, kCameraKeys, "For pictures and films."},
+    {SectionId::Body, "body", true, kBodyKeys, "What moves; as many as are wanted."},
+    {SectionId::Collider, "collider", true, kColliderKeys, "What does not move; as many as are wanted."},
+};
+
+} // namespace
+
+std::span<const SceneSection> sceneSections() { return kSections; }
+const SceneSection& sectionOf(SectionId id) { return kSections[static_cast<size_t>(id)]; }
+std::span<const std::string_view> shapeNames() { return kShapes; }
+std::span<const std::string_view> effectNames() { return kEffects; }
+std::span<const std::string_view> materialNames() { return kMaterials; }
+
+const SceneKey* findKey(const SceneSection& section, std::string_view name) {
+    const auto found =
+        std::find_if(section.keys.begin(), section.keys.end(), [&](const SceneKey& k) { return k.name == name; });
+    return found == section.keys.end() ? nullptr : &*found;
+}
+
+std::string headingOf(const SceneSection& section) {
+    if (section.name.empty()) return "the scene";
+    const std::string name = "[" + std::string(section.name) + "]";
+    return section.is_repeated ? "[" + name + "]" : name;
+}
+
+void* ownerOf(SceneDescription& scene, SectionId id, size_t index) {
+    switch (id) {
+    case SectionId::Scene: return &scene;
+    case SectionId::Step: return &scene.step;
+    case SectionId::Budgets: return &scene.budgets;
+    case SectionId::Camera: return &scene.camera;
+    case SectionId::Body: return &scene.bodies[index];
+    case SectionId::Collider: return &scene.colliders[index];
+    }
+    return nullptr;
+}
+
+size_t countOf(const SceneDescription& scene, SectionId id) {
+    if (id == SectionId::Body) return scene.bodies.size();
+    return id == SectionId::Collider ? scene.colliders.size() : 1;
+}
+
+const ShapeDescription* shapeOf(const void* owner, SectionId id) {
+    if (id == SectionId::Body) return &static_cast<const BodyDescription*>(owner)->shape;
+    return id == SectionId::Collider ? &static_cast<const ColliderDescription*>(owner)->shape : nullptr;
+}
+
+ValueRef defaultOf(const SceneSection& section, const SceneKey& key) {
+    static SceneDescription usual = [] {
+        SceneDescription scene;
+        scene.bodies.emplace_back();
+        scene.colliders.emplace_back();
+        return scene;
+    }();
+    return key.locate(ownerOf(usual, section.id, 0));
+}
+
+SceneCounts countsOf(const SceneDescription& scene) {
+    SceneCounts counts;
+    for (const BodyDescription& body : scene.bodies) {
+        const uint64_t pieces = std::max<uint32_t>(1, body.shape.cells.sites);
+        counts.pieces += pieces;
+        counts.bodies += body.shape.cells.broken ? pieces : 1;
+    }
+    counts.colliders = scene.colliders.size();
+    return counts;
+}
+
+} // namespace brittle

@@ -1,0 +1,106 @@
+// brittle scenes: the built-in scenes, the keys of scene files, and whether a scene file is sound.
+#include "modules/brittle/export/output_file.h"
+#include "modules/brittle/scene/check_scene.h"
+#include "modules/brittle/scene/library/builtin_scenes.h"
+#include "modules/brittle/scene/scene_file.h"
+#include "modules/brittle/scene/scene_keys.h"
+#include "tools/brittle/command.h"
+#include "tools/brittle/same_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+struct ScenesOptions {
+    std::string scene, output;
+    bool keys = false;
+    bool as_json = false;
+};
+
+std::string summaryOf(const brittle::SceneDescription& scene) { return scene.comment.substr(0, scene.comment.find('\n')); }
+
+nlohmann::ordered_json jsonOf(const brittle::SceneDescription& scene) {
+    const brittle::SceneCounts counts = brittle::countsOf(scene);
+    return {{"name", scene.name},        {"bodies", counts.bodies},  {"pieces", counts.pieces}, {"colliders", counts.colliders},
+            {"steps", scene.step.steps}, {"effects", scene.effects}, {"comment", scene.comment}};
+}
+
+void printRow(const brittle::SceneDescription& scene) {
+    const brittle::SceneCounts counts = brittle::countsOf(scene);
+    std::printf("%-28s %6llu %9llu %6u  %s\n", scene.name.c_str(), static_cast<unsigned long long>(counts.bodies),
+                static_cast<unsigned long long>(counts.colliders), scene.step.steps, summaryOf(scene).c_str());
+}
+
+void printList(bool as_json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    if (!as_json) std::printf("%-28s %6s %9s %6s\n", "name", "bodies", "colliders", "steps");
+    for (const brittle::SceneEntry& entry : brittle::builtinScenes()) {
+        const auto scene = brittle::makeBuiltinScene(entry.name);
+        if (as_json)
+            list.push_back(jsonOf(*scene));
+        else
+            printRow(*scene);
+    }
+    if (as_json)
+        std::printf("%s\n", list.dump(2).c_str());
+    else
+        std::printf("\nAlso hull_pile_N and stack_N, with any number. brittle scenes NAME prints one as a file.\n");
+}
+
+engine::Result<brittle::SceneDescription> sceneFrom(const std::string& name) {
+    if (name.ends_with(".toml")) return brittle::readScene(std::filesystem::path(name));
+    return brittle::makeBuiltinScene(name);
+}
+
+engine::Result<void> write(const std::string& path, const std::string& text) {
+    auto file = brittle::OutputFile::create(path);
+    if (!file) return file.error();
+    if (auto written = file->write(text); !written) return written;
+    return file->commit();
+}
+
+int showScene(const ScenesOptions& options) {
+    const auto scene = sceneFrom(options.scene);
+    if (!scene) return fail(scene.error());
+    const std::string text = options.as_json ? jsonOf(*scene).dump(2) + "\n" : brittle::writeScene(*scene);
+    if (options.output.empty()) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+        return kOk;
+    }
+    if (sameFile(options.output, options.scene))
+        return fail({engine::ErrorCode::BadInput,
+                     options.output + ": is read as input and would be overwritten; write to another file"});
+    const auto written = write(options.output, text);
+    return written ? kOk : fail(written.error());
+}
+
+int runScenes(const ScenesOptions& options) {
+    if (options.keys) {
+        std::printf("%s", brittle::sceneKeyHelp().c_str());
+        return kOk;
+    }
+    if (!options.scene.empty()) return showScene(options);
+    if (!options.output.empty())
+        return fail({engine::ErrorCode::BadInput, "--output needs a scene to write; brittle scenes lists them"});
+    printList(options.as_json);
+    return kOk;
+}
+
+} // namespace
+
+void addScenes(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, check a scene file, explain its keys.");
+    command->footer("Examples:\n  brittle scenes\n  brittle scenes card_house -o house.toml\n  brittle scenes house.toml\n"
+                    "  brittle scenes --keys");
+    auto options = std::make_shared<ScenesOptions>();
+    command->add_option("SCENE", options->scene, "a built-in scene, or a .toml file to check; printed as TOML");
+    command->add_option("-o,--output", options->output, "write it to this file instead");
+    command->add_flag("--keys", options->keys, "explain every key of scene files");
+    command->add_flag("--json", options->as_json, "print JSON: names, comments and counts");
+    command->callback([options, &exit_code] { exit_code = runScenes(*options); });
+}
+
+} // namespace cli
