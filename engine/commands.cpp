@@ -72,7 +72,7 @@ Result<void> Commands::createOwn() {
     return {};
 }
 
-Result<void> Commands::begin() {
+Result<void> Commands::begin(Reuse reuse) {
     error_.reset();
     hazards_.flush();
     descriptors_.reset();
@@ -85,7 +85,7 @@ Result<void> Commands::begin() {
     }
     device_.vk().vkResetCommandPool(device_.handle(), pool_, 0);
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    if (reuse == Reuse::Once) info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     const VkResult begun = device_.vk().vkBeginCommandBuffer(commands_, &info);
     if (begun != VK_SUCCESS) return vulkanError("cannot begin a command buffer", begun);
     recording_ = true;
@@ -105,6 +105,12 @@ Result<void> Commands::submit() {
     const VkResult ended = device_.vk().vkEndCommandBuffer(commands_);
     if (error_) return *error_;
     if (ended != VK_SUCCESS) return vulkanError("cannot end a command buffer", ended);
+    return submitAgain();
+}
+
+Result<void> Commands::submitAgain() {
+    ENGINE_ASSERT(!external_ && !recording_);
+    if (error_) return *error_;
     device_.vk().vkResetFences(device_.handle(), 1, &fence_);
     return device_.submit(device_.computeQueue(), commands_, fence_);
 }

@@ -24,6 +24,8 @@ struct NoPush {};
 
 class Commands {
 public:
+    enum class Reuse : uint8_t { Once, Many };
+
     // With a command buffer of its own, for the compute queue.
     explicit Commands(Device& device);
     // Only records, into a command buffer of the caller, who has begun it, ends it and submits it to the compute queue.
@@ -33,12 +35,14 @@ public:
     Commands& operator=(const Commands&) = delete;
 
     // Starts a recording; what was recorded before must have finished, and its timings are forgotten.
-    Result<void> begin();
+    Result<void> begin(Reuse reuse = Reuse::Once);
     // Ends the recording, submits it, waits for the device, and makes all that it wrote visible to the host.
     Result<void> submitAndWait();
     // The same in two steps.
     Result<void> submit();
     Result<void> wait();
+    // What was begun with Reuse::Many and submitted, once more; the device must have finished with it.
+    Result<void> submitAgain();
     // The first mistake of this recording.
     Result<void> status() const;
 

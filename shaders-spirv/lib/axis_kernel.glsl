@@ -39,7 +39,7 @@ float tie;
 const float kTie = 2e-5;
 
 void loadHulls(uint k) {
-    pair = loadPair(pairs[k], push.duration, push.speculative);
+    pair = loadPair(pairs[k], push);
     is_fast = dot(pair.motion, pair.motion) > pair.margin * pair.margin;
     if (!is_fast) pair.motion = vec3(0.0);
     tie = kTie * pair.smaller + pair.rounding;

@@ -22,7 +22,7 @@ const float kRounding = 2e-6; // of lengths, after a few products and sums
 // A margin as large as a chip would hold it off the ground.
 const float kMarginShare = 0.1;
 
-void loadPlaces(inout HullPair pair) {
+void loadPlaces(inout HullPair pair, float duration, vec3 gravity) {
     BodyState a = bodies[pair.ids.z], b = bodies[pair.ids.w];
     pair.turn = a.turn;
     vec4 back = turnBack(a.turn);
@@ -31,21 +31,22 @@ void loadPlaces(inout HullPair pair) {
     vec3 apart = vec3(b.sector.xyz - a.sector.xyz) * float(SECTOR_EDGE) + (b.offset.xyz - a.offset.xyz);
     pair.place[0] = vec3(0.0);
     pair.place[1] = turned(back, apart) + pair.axes[1] * pair.hull[1].center.xyz - pair.hull[0].center.xyz;
-    pair.motion = turned(back, b.velocity.xyz - a.velocity.xyz);
+    vec3 falling = gravity * ((b.offset.w > 0.0 ? 1.0 : 0.0) - (a.offset.w > 0.0 ? 1.0 : 0.0));
+    pair.motion = turned(back, b.velocity.xyz - a.velocity.xyz + duration * falling);
 }
 
-HullPair loadPair(uvec2 of, float duration, float speculative) {
+HullPair loadPair(uvec2 of, NarrowPhasePush push) {
     HullPair pair;
     uvec4 a = pieces[of.x].ids, b = pieces[of.y].ids;
     pair.ids = uvec4(of, a.y, b.y);
     pair.hull[0] = hulls[a.x];
     pair.hull[1] = hulls[b.x];
-    loadPlaces(pair);
-    pair.motion *= duration;
+    loadPlaces(pair, push.duration, push.gravity.xyz);
+    pair.motion *= push.duration;
     float radius_a = pair.hull[0].center.w, radius_b = pair.hull[1].center.w;
     pair.smaller = min(radius_a, radius_b);
     pair.rounding = kRounding * (radius_a + radius_b);
-    pair.margin = min(speculative, kMarginShare * pair.smaller);
+    pair.margin = min(push.speculative, kMarginShare * pair.smaller);
     return pair;
 }
 

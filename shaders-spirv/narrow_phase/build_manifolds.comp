@@ -132,7 +132,7 @@ void writeManifold(uint k) {
 void main() {
     uint k = flatIndex();
     if (k >= min(pair_count[0], push.capacity)) return;
-    pair = loadPair(pairs[k], push.duration, push.speculative);
+    pair = loadPair(pairs[k], push);
     found = axes[k];
     is_swept = found.shift.xyz != vec3(0.0);
     uint kind = found.info.x >> AXIS_KIND_SHIFT;

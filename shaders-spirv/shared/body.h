@@ -20,7 +20,7 @@ struct BodyState {
 
 struct BodyShape {
     uvec4 pieces;            // first piece, count, 0, 0
-    vec4 inverse_inertia[3]; // rows, own frame; w: friction, restitution, radius about the center of mass that holds all pieces
+    vec4 inverse_inertia[3]; // rows, own axes, which are the principal ones: a diagonal; w: friction, restitution, radius about the center of mass that holds all pieces
 };
 
 struct PieceRecord {

@@ -22,6 +22,7 @@ struct AxisRecord {
 };
 
 struct NarrowPhasePush {
+    vec4 gravity;      // that what moves falls with in the step
     float speculative; // m
     float duration;    // of the step in seconds; 0: nothing is swept
     uint capacity;     // pairs
@@ -31,6 +32,6 @@ struct NarrowPhasePush {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::NarrowPhasePush) == 16);
+static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::NarrowPhasePush) == 32);
 #endif
 #endif

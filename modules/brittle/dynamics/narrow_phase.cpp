@@ -65,7 +65,9 @@ Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary
     const auto kernels = kernelsOf(library, options.fixed_axes, many_lanes);
     if (!kernels) return kernels.error();
 
-    const gpu::NarrowPhasePush push = {options.speculative, options.duration, input.capacity, options.fixed_axes};
+    const Float3& g = options.gravity;
+    const gpu::NarrowPhasePush push = {
+        {g[0], g[1], g[2], 0}, options.speculative, options.duration, input.capacity, options.fixed_axes};
     const HullPools& hulls = input.hulls;
     commands.dispatchGroups(*kernels->size, 1, push, {input.pair_count, output.arguments});
     commands.dispatchIndirect(*kernels->axes, output.arguments.sub(0, 12), push,

@@ -69,7 +69,6 @@ void recordFiltered(const Event& e, const FastPush& push) {
 } // namespace
 
 void recordCutting(const Event& e) {
-    const auto& b = e.b;
     FastPush fast = {e.grid.bins,
                      {e.grid.box_low[0], e.grid.box_low[1], e.grid.box_low[2], 0},
                      {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},

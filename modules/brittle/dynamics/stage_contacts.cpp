@@ -1,0 +1,76 @@
+// Pairs of pieces whose boxes meet, the points where they touch, and what is remembered of them from step to step.
+#include "modules/brittle/dynamics/step.h"
+#include "modules/brittle/mesh/vector_math.h"
+
+namespace brittle {
+namespace {
+
+constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
+constexpr double kSweepAhead = 1.25; // a body may be faster by the end of a step than it is now
+
+BroadPhase broadPhaseOf(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    return {s.b.broad_phase, b.broad_phase, b.box_low, b.box_high, s.now.pairs};
+}
+
+// Pairs whose points are to be found: all that were not near each other, or have moved against each other since.
+void recordRecall(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    const auto& r = s.record;
+    s.record.run(
+        "recall_contacts", kPairs, uint32_t{s.settings.recycling ? 1u : 0u},
+        {r.counts(), s.now.pairs, s.last.count, s.last.pairs, s.last.contacts, s.b.bodies, s.b.shapes, b.recalled, b.fresh});
+    s.record.scan(kPairs, b.fresh, b.sums, b.fresh_slots,
+                  {{COUNT_FRESH_PAIRS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
+    s.record.run("list_fresh", kPairs, engine::NoPush{}, {r.counts(), s.now.pairs, b.fresh_slots, b.fresh_pairs});
+}
+
+engine::Result<void> recordPoints(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    NarrowPhaseInput input = {
+        s.b.hulls(), s.b.pieces, s.b.bodies, b.fresh_pairs, s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4), s.b.sizes.pairs};
+    NarrowPhaseOptions options;
+    options.speculative = static_cast<float>(s.settings.margin);
+    options.duration = static_cast<float>(kSweepAhead * s.settings.dt);
+    options.gravity = toFloat(s.settings.gravity);
+    options.fixed_axes = s.settings.fixed_axes;
+    return recordNarrowPhase(s.record.commands(), s.kernels, input, options, {b.manifolds, b.axes, b.narrow_arguments},
+                             s.many_lanes);
+}
+
+void recordMemory(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    s.record.run("remember_contacts", kPairs, engine::NoPush{},
+                 {s.record.counts(), b.recalled, b.fresh_slots, b.manifolds, s.last.contacts, s.b.bodies, s.b.shapes,
+                  s.now.contacts, b.touches});
+    s.record.scan(kPairs, b.touches, b.sums, b.contact_offsets,
+                  {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
+    s.record.compact(kPairs, b.contact_offsets, b.contact_pairs);
+    s.record.commands().copy(s.record.counts().sub(4 * COUNT_BOX_PAIRS, 4), engine::BufferView(s.now.count).sub(0, 4));
+}
+
+} // namespace
+
+void recordBoxes(const Step& s) {
+    struct Push {
+        float gravity[4];
+        float margin;
+        uint32_t pieces;
+    } push = {{0, 0, 0, static_cast<float>(s.settings.dt)}, static_cast<float>(s.settings.margin / 2), s.b.sizes.pieces};
+    s.record.commands().beginLabel("boxes");
+    s.record.run("bound_pieces", Length::of(s.b.sizes.pieces), push,
+                 {s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});
+    s.record.commands().endLabel();
+}
+
+engine::Result<void> recordContacts(const Step& s) {
+    recordBroadPhase(s.record, broadPhaseOf(s));
+    s.record.commands().beginLabel("narrow_phase");
+    recordRecall(s);
+    if (auto recorded = recordPoints(s); !recorded) return recorded;
+    recordMemory(s);
+    s.record.commands().endLabel();
+    return {};
+}
+
+} // namespace brittle

@@ -1,0 +1,28 @@
+// A step of a world as it is recorded, stage by stage.
+#pragma once
+
+#include "modules/brittle/dynamics/world.h"
+#include "modules/brittle/dynamics/world_buffers.h"
+#include "modules/brittle/fracture/recorder.h"
+
+namespace brittle {
+
+struct Step {
+    const StepSettings& settings;
+    const WorldBuffers& b;
+    const PairMemory& last; // of the step before
+    const PairMemory& now;
+    engine::KernelLibrary& kernels;
+    Recorder& record;
+    bool many_lanes; // the device has them
+};
+
+void recordBoxes(const Step& step);
+engine::Result<void> recordContacts(const Step& step); // pairs, points, and what is remembered of them
+void recordColors(const Step& step);
+void recordSolve(const Step& step);
+void recordEnd(const Step& step);
+
+gpu::SolverPush solverPush(const Step& step);
+
+} // namespace brittle

@@ -1,0 +1,208 @@
+#include "modules/brittle/dynamics/world.h"
+
+#include "modules/brittle/dynamics/step.h"
+#include "modules/brittle/fracture/fetch.h"
+#include "modules/brittle/fracture/upload.h"
+
+#include <cmath>
+#include <string>
+
+namespace brittle {
+namespace {
+
+using engine::BufferView;
+using engine::Error;
+using engine::ErrorCode;
+using engine::Result;
+
+constexpr uint32_t kPairsPerPiece = 32, kLeastPairs = 1024;
+constexpr uint32_t kManyLanes = 32; // in a subgroup, from which on a pair has more of them in the narrow phase
+
+Result<void> checkSettings(const StepSettings& s) {
+    const auto refuse = [](const std::string& why) { return Error{ErrorCode::BadInput, "world: " + why}; };
+    for (const double g : s.gravity)
+        if (!(std::fabs(g) <= 1e4)) return refuse("gravity is no number or beyond 1e4 m/s2");
+    if (!(s.dt >= 1e-6 && s.dt <= 1)) return refuse("a step takes " + std::to_string(s.dt) + " s; give it 1e-6 to 1");
+    if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
+    if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
+        return refuse("contacts of that frequency or damping; give 0 to 1e4");
+    if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
+        return refuse("a push-out or bounce threshold that is negative or no number");
+    if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
+    return {};
+}
+
+uint64_t hashOf(std::span<const std::byte> bytes) {
+    uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
+    for (const std::byte b : bytes)
+        hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
+    return hash;
+}
+
+class DeviceWorld : public World {
+public:
+    DeviceWorld(engine::Device& device, WorldBuffers buffers, const StepSettings& settings)
+        : device_(device), kernels_(device), b_(std::move(buffers)), settings_(settings) {}
+
+    // Once for each of the two memories that take turns.
+    Result<void> record() {
+        for (uint32_t parity = 0; parity < 2; parity++) {
+            commands_[parity] = std::make_unique<engine::Commands>(device_);
+            engine::Commands& commands = *commands_[parity];
+            if (auto begun = commands.begin(engine::Commands::Reuse::Many); !begun) return begun;
+            Recorder recorder(commands, kernels_, b_.counts, b_.args);
+            if (auto recorded = recordStep(recorder, parity); !recorded) return recorded;
+            if (auto recorded = recorder.status(); !recorded) return recorded;
+        }
+        return {};
+    }
+
+    Result<void> step(uint32_t steps) override {
+        const uint64_t from = made_;
+        for (uint32_t k = 0; k < steps; k++)
+            if (auto done = submit((from + k) & 1); !done) return done;
+        return takeStock();
+    }
+
+    Result<std::vector<gpu::BodyState>> bodies() override {
+        std::vector<gpu::BodyState> bodies(b_.sizes.bodies);
+        const Fetch wanted[] = {{b_.bodies, bodies.data(), bodies.size() * sizeof(gpu::BodyState)}};
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        return bodies;
+    }
+
+    Result<WorldCounts> counts() override {
+        std::vector<uint32_t> words(STATUS_WORDS), colors(COLORS + 2);
+        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()},
+                                {b_.step.color_start, colors.data(), 4 * colors.size()}};
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        WorldCounts c = {b_.sizes.bodies,         b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS], 0,
+                         words[COUNT_FRESH_PAIRS]};
+        for (uint32_t k = 0; k < COLORS; k++)
+            if (colors[k + 1] != colors[k]) c.colors = k + 1;
+        c.colorless = colors[NO_COLOR + 1] - colors[NO_COLOR];
+        return c;
+    }
+
+    Result<std::vector<engine::Timing>> timings() override { return commands_[(made_ + 1) & 1]->timings(); }
+    uint32_t dispatches() const override { return commands_[0]->dispatchCount(); }
+
+    Result<std::vector<std::byte>> save() override {
+        std::vector<std::byte> state(stateBytes());
+        std::vector<Fetch> wanted;
+        size_t at = 0;
+        for (const BufferView& view : stateViews()) {
+            wanted.push_back({view, state.data() + at, view.size});
+            at += view.size;
+        }
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        return state;
+    }
+
+    Result<void> restore(std::span<const std::byte> state) override {
+        if (state.size() != stateBytes())
+            return Error{ErrorCode::BadInput, "a state of " + std::to_string(state.size()) + " bytes, this world's has " +
+                                                  std::to_string(stateBytes()) +
+                                                  "; restore it into a world of the same contents"};
+        Upload upload;
+        const auto views = stateViews();
+        size_t at = 0;
+        for (const BufferView& view : views) {
+            upload.add(state.subspan(at, view.size), view);
+            at += view.size;
+        }
+        auto staging = upload.stage(device_);
+        if (!staging) return staging.error();
+        engine::Commands commands(device_);
+        if (auto begun = commands.begin(); !begun) return begun;
+        upload.copy(commands, *staging);
+        if (auto done = commands.submitAndWait(); !done) return done;
+        return takeStock();
+    }
+
+    Result<uint64_t> hash() override {
+        auto state = bodies();
+        if (!state) return state.error();
+        return hashOf(std::as_bytes(std::span(*state)));
+    }
+
+private:
+    Result<void> recordStep(Recorder& record, uint32_t parity) {
+        const Step step = {
+            settings_, b_, b_.memory[1 - parity], b_.memory[parity], kernels_, record, device_.subgroupSize() >= kManyLanes};
+        record.clear({BufferView(b_.counts).sub(0, 4 * STATUS_FAILED)});
+        record.commands().fill(BufferView(b_.counts).sub(4 * COUNT_BOXES, 4), b_.sizes.pieces);
+        recordBoxes(step);
+        if (auto recorded = recordContacts(step); !recorded) return recorded;
+        recordColors(step);
+        recordSolve(step);
+        recordEnd(step);
+        return {};
+    }
+
+    Result<void> submit(uint32_t parity) {
+        engine::Commands& commands = *commands_[parity];
+        if (auto submitted = submitted_[parity] ? commands.submitAgain() : commands.submit(); !submitted) return submitted;
+        submitted_[parity] = true;
+        return commands.wait();
+    }
+
+    // How many steps the device has made, and why not more.
+    Result<void> takeStock() {
+        std::vector<uint32_t> words(STATUS_WORDS);
+        uint32_t steps = 0;
+        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {BufferView(b_.steps).sub(0, 4), &steps, 4}};
+        if (auto read = fetch(device_, wanted); !read) return read;
+        made_ = steps;
+        return failureOf(words);
+    }
+
+    Result<void> failureOf(const std::vector<uint32_t>& words) const {
+        if (words[STATUS_FAILED] == 0) return {};
+        const uint32_t needed = words[STATUS_NEEDED + COUNT_BOX_PAIRS];
+        if (needed > b_.sizes.pairs)
+            return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " finds " + std::to_string(needed) +
+                                                  " pairs of pieces near each other, there is room for " +
+                                                  std::to_string(b_.sizes.pairs) + "; raise the budget of pairs"};
+        return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " failed with status " +
+                                              std::to_string(words[STATUS_FAILED]) + ": a piece is near too many others"};
+    }
+
+    std::vector<BufferView> stateViews() const {
+        std::vector<BufferView> views = {b_.bodies, b_.steps};
+        for (const PairMemory& memory : b_.memory)
+            for (const engine::Buffer* buffer : {&memory.count, &memory.pairs, &memory.contacts})
+                views.push_back(*buffer);
+        return views;
+    }
+    size_t stateBytes() const {
+        size_t bytes = 0;
+        for (const BufferView& view : stateViews())
+            bytes += view.size;
+        return bytes;
+    }
+
+    engine::Device& device_;
+    engine::KernelLibrary kernels_;
+    WorldBuffers b_;
+    StepSettings settings_;
+    std::unique_ptr<engine::Commands> commands_[2];
+    bool submitted_[2] = {false, false};
+    uint64_t made_ = 0;
+};
+
+} // namespace
+
+Result<std::unique_ptr<World>> World::create(engine::Device& device, const WorldContents& contents,
+                                             const StepSettings& settings, const WorldBudget& budget) {
+    if (auto sound = checkSettings(settings); !sound) return sound.error();
+    if (contents.bodies.empty()) return Error{ErrorCode::BadInput, "a world without bodies; add at least one"};
+    const uint64_t chosen = std::max<uint64_t>(kLeastPairs, uint64_t{kPairsPerPiece} * contents.pieces.size());
+    auto buffers = makeWorldBuffers(device, contents, budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(chosen));
+    if (!buffers) return buffers.error();
+    auto world = std::make_unique<DeviceWorld>(device, std::move(*buffers), settings);
+    if (auto recorded = world->record(); !recorded) return recorded.error();
+    return std::unique_ptr<World>(std::move(world));
+}
+
+} // namespace brittle

@@ -1,0 +1,51 @@
+// Where everything of a world lies on the device.
+#pragma once
+
+#include "engine/arena.h"
+#include "engine/buffer.h"
+#include "engine/device.h"
+#include "modules/brittle/dynamics/broad_phase.h"
+#include "modules/brittle/dynamics/narrow_phase.h"
+#include "modules/brittle/dynamics/world_contents.h"
+#include "shaders-spirv/shared/solver.h"
+
+#include <array>
+#include <memory>
+
+namespace brittle {
+
+struct WorldSizes {
+    uint32_t bodies = 0, pieces = 0, pairs = 0;
+};
+
+// What a step makes and the next one reads; two of them take turns.
+struct PairMemory {
+    engine::Buffer pairs, count, contacts; // uvec2 sorted, one word, gpu::ContactMemory a pair
+};
+
+// Made anew in every step.
+struct StepBuffers {
+    engine::BufferView box_low, box_high, recalled, fresh, fresh_slots, sums, fresh_pairs, manifolds, axes, narrow_arguments,
+        touches, contact_offsets, contact_pairs, contact_slots, solver_bodies, spins, solver_contacts, body_colors, bids,
+        waiting, color_start, adjacency_counts, adjacency_start, adjacency_cursors, loose_adjacency, adjacency;
+    BroadPhaseScratch broad_phase;
+};
+
+struct WorldBuffers {
+    engine::Buffer hull_records, hull_vertices, hull_faces, hull_corners, hull_edges;
+    engine::Buffer pieces, bodies, shapes;
+    engine::Buffer counts, args; // as a fracture event's (shared/fracture.h), indices in shared/solver.h
+    engine::Buffer steps;        // one word: how many steps have been made
+    std::array<PairMemory, 2> memory;
+    std::unique_ptr<engine::ScratchArena> arena;
+    StepBuffers step;
+    WorldSizes sizes;
+    BroadPhaseBudget broad_phase;
+
+    HullPools hulls() const { return {hull_records, hull_vertices, hull_faces, hull_corners, hull_edges}; }
+};
+
+// Fills what the contents say and clears the rest. Errors: Capacity, with the list that the device cannot bind; Device.
+engine::Result<WorldBuffers> makeWorldBuffers(engine::Device& device, const WorldContents& contents, uint32_t pairs);
+
+} // namespace brittle

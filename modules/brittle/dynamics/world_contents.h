@@ -1,0 +1,49 @@
+// What a world is made of, on the host: bodies, the pieces that they collide by, and the hulls of these, packed as the kernels
+// read them. SI units.
+#pragma once
+
+#include "engine/result.h"
+#include "modules/brittle/dynamics/hull_set.h"
+#include "shaders-spirv/shared/body.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace brittle {
+
+// A convex piece, in meters, about its body's center of mass and along its axes: faces as loops of vertices, counterclockwise
+// seen from outside. A triangle of a static surface is a piece of three vertices and two opposite faces.
+struct PieceShape {
+    std::vector<Float3> vertices;
+    std::vector<std::vector<uint32_t>> loops;
+};
+
+using Turn = std::array<double, 4>; // a quaternion x, y, z, w of any length but 0: own frame to world
+
+struct BodyDefinition {
+    std::string name; // for messages
+    std::vector<PieceShape> pieces;
+    Double3 place = {0, 0, 0}; // of the center of mass
+    Turn turn = {0, 0, 0, 1};
+    Double3 velocity = {0, 0, 0};
+    Double3 spin = {0, 0, 0};                           // rad/s, world axes
+    double mass = 0;                                    // kg; 0: it does not move
+    std::array<double, 6> inertia = {0, 0, 0, 0, 0, 0}; // kg m2, about the center of mass: xx, yy, zz, xy, xz, yz
+    double friction = 0.6;
+    double restitution = 0;
+};
+
+struct WorldContents {
+    HullSet hulls;
+    std::vector<gpu::PieceRecord> pieces;
+    std::vector<gpu::BodyState> bodies;
+    std::vector<gpu::BodyShape> shapes;
+};
+
+// Adds a body and returns its index. Where it fails the contents are as they were. Errors, with the body's name: BadInput for
+// numbers that are none, places beyond 1e6 m, speeds beyond 1e4 m/s, a negative mass, an inertia that is not that of a solid,
+// a turn of length 0, no pieces, pieces that are not convex solids (dynamics/hull_set.h); Capacity.
+engine::Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body);
+
+} // namespace brittle

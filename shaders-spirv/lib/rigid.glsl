@@ -1,0 +1,45 @@
+// Spin, angular momentum and inertia of a body.
+#ifndef RIGID_GLSL
+#define RIGID_GLSL
+#include "lib/quaternion.glsl"
+#include "shared/body.h"
+
+// GLSL's matrices are given by columns, these by rows, but they are symmetric.
+mat3 ownInverseInertia(BodyShape shape) {
+    return mat3(shape.inverse_inertia[0].xyz, shape.inverse_inertia[1].xyz, shape.inverse_inertia[2].xyz);
+}
+
+mat3 worldInertia(mat3 own, vec4 turn) {
+    mat3 axes = matrixOf(turn);
+    return axes * own * transpose(axes);
+}
+
+vec3 spinOf(mat3 own_inverse, vec4 turn, vec3 momentum) { return turned(turn, own_inverse * turned(turnBack(turn), momentum)); }
+
+// A turn about one of the own axes, after which own components of a vector that stays in the world are those of `own`.
+void turnAbout(uint axis, float angle, inout vec4 turn, inout vec3 own) {
+    vec4 q = vec4(0.0, 0.0, 0.0, cos(0.5 * angle));
+    q[axis] = sin(0.5 * angle);
+    turn = turnAfter(turn, q);
+    own = turned(turnBack(q), own);
+}
+
+// A free body turns so that its angular momentum L stays. Its energy is a sum of parts that are each solved exactly (splitting:
+// McLachlan 1993): |L|^2 over the middle moment of inertia turns it about L, what is left turns it about one own axis at a time.
+// A top with two equal moments is exact so; of others the energy errs by the square of the step and does not drift. However thin
+// a rod is, nothing here divides small differences by its small moment. The own axes are the principal ones.
+vec4 turnFreely(vec3 inverse_moments, vec4 turn, vec3 momentum, float h) {
+    float least = min(inverse_moments.x, inverse_moments.y), most = max(inverse_moments.x, inverse_moments.y);
+    float middle = max(least, min(most, inverse_moments.z)), size = length(momentum);
+    vec3 rest = inverse_moments - middle, own = turned(turnBack(turn), momentum);
+    turnAbout(0u, 0.5 * h * rest.x * own.x, turn, own);
+    turnAbout(1u, 0.5 * h * rest.y * own.y, turn, own);
+    turnAbout(2u, h * rest.z * own.z, turn, own);
+    turnAbout(1u, 0.5 * h * rest.y * own.y, turn, own);
+    turnAbout(0u, 0.5 * h * rest.x * own.x, turn, own);
+    float angle = 0.5 * h * middle * size;
+    vec4 common_ = size > 0.0 ? vec4(sin(angle) / size * momentum, cos(angle)) : vec4(0.0, 0.0, 0.0, 1.0);
+    return normalize(turnAfter(common_, turn));
+}
+
+#endif

@@ -1,0 +1,166 @@
+// One contact, solved once: normal impulses point by point, then friction for all points together at their center, and against twisting about it.
+//
+// A point that is still apart may close its gap in this substep and no faster. One that overlaps is pushed out as a damped
+// spring would, which takes some of the impulse back as it gives; the solve without push then takes out the speed of that push.
+// Wants `solver_bodies` and `solver_contacts` declared, and the push constants of SolverPush.
+#include "lib/solver_body.glsl"
+#include "lib/approach.glsl"
+#include "lib/blow.glsl"
+
+struct Touching {
+    Moving a, b;
+    vec3 moved;               // of B against A since the step began
+    vec4 turned_a, turned_b;
+};
+
+vec3 shifted(vec4 turn, vec3 arm) { return turned(turn, arm) - arm; }
+
+float separationOf(SolverPoint p, Touching t, vec3 normal) {
+    return p.arm_a.w + dot(normal, t.moved + shifted(t.turned_b, p.arm_b.xyz) - shifted(t.turned_a, p.arm_a.xyz));
+}
+
+void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {
+    push(t.a, -impulse, -cross(arm_a, impulse));
+    push(t.b, impulse, cross(arm_b, impulse));
+}
+
+// separation: how far the points are apart, soft: the spring that pushes them if they overlap
+void solvePoint(inout SolverPoint p, float separation, vec3 normal, vec4 spring, inout Touching t) {
+    bool apart = separation > 0.0, pushed = !apart && with_push != 0u;
+    float bias = apart ? separation / gravity.w : (pushed ? max(spring.x * separation, -spring.w) : 0.0);
+    float mass_share = pushed ? spring.y : 1.0, impulse_share = pushed ? spring.z : 0.0;
+    float speed = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
+    float impulse = -p.arm_b.w * mass_share * (speed + bias) - impulse_share * p.pulse.x;
+    float total = max(p.pulse.x + impulse, 0.0);
+    pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - p.pulse.x) * normal);
+    p.pulse.x = total;
+    p.pulse.y = max(p.pulse.y, total);
+}
+
+// A blow says nothing about what comes after it: its impulse is forgotten where the next substep begins (push_bodies).
+void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
+    if (with_push == 0u) return;
+    p.pulse.x = p.pulse.w != 0.0 ? 0.0 : p.pulse.x;
+    p.pulse.w = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz)) < -stiff.w ? 1.0 : 0.0;
+}
+
+// All points at once, as if none of them had to be held at 0.
+void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec4 separation, uint points, vec3 normal, vec4 spring, inout Touching t) {
+    vec4 short_of = vec4(0.0), mass_share = vec4(1.0), impulse_share = vec4(0.0), was = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        bool there = k < points, apart = separation[k] > 0.0, pushed = !apart && with_push != 0u;
+        float bias = apart ? separation[k] / gravity.w : (pushed ? max(spring.x * separation[k], -spring.w) : 0.0);
+        float speed = dot(normal, velocityAt(t.b, p[k].arm_b.xyz) - velocityAt(t.a, p[k].arm_a.xyz));
+        // A point that is apart and will stay so is no reason to pull.
+        short_of[k] = there && (speed + bias < 0.0 || p[k].pulse.x > 0.0) ? speed + bias : 0.0;
+        was[k] = p[k].pulse.x;
+        mass_share[k] = pushed ? spring.y : 1.0;
+        impulse_share[k] = pushed ? spring.z : 0.0;
+    }
+    mat4 press = mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
+    vec4 total = max(was - mass_share * (press * short_of) - impulse_share * was, vec4(0.0));
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        if (k < points) pushApart(t, p[k].arm_a.xyz, p[k].arm_b.xyz, (total[k] - was[k]) * normal);
+        p[k].pulse.x = k < points ? total[k] : 0.0;
+        p[k].pulse.y = max(p[k].pulse.y, p[k].pulse.x);
+    }
+}
+
+// Together, then there and back again over the points for what had to be held at 0, so that none of them comes first: what is left
+// of the error turns nothing.
+void pressContact(uint c, vec3 normal, uint points, vec4 spring, inout Touching t) {
+    SolverPoint p[MANIFOLD_POINTS];
+    float separation[MANIFOLD_POINTS];
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        p[k] = solver_contacts[c].points[k];
+        separation[k] = separationOf(p[k], t, normal);
+        noteBlow(p[k], normal, t);
+    }
+    solveTogether(c, p, vec4(separation[0], separation[1], separation[2], separation[3]), points, normal, spring, t);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
+        if (k < points) solvePoint(p[k], separation[k], normal, spring, t);
+    [[unroll]] for (uint k = MANIFOLD_POINTS; k-- > 0u;)
+        if (k < points) solvePoint(p[k], separation[k], normal, spring, t);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
+        if (k < points) solver_contacts[c].points[k].pulse = p[k].pulse;
+}
+
+void resistTwist(inout vec4 rub, vec3 normal, float mass, float most, inout Touching t) {
+    float total = clamp(rub.z - mass * dot(normal, t.b.spin - t.a.spin), -most, most);
+    float twist = total - rub.z;
+    rub.z = total;
+    t.a.spin -= spinBy(t.a, twist * normal);
+    t.b.spin += spinBy(t.b, twist * normal);
+}
+
+void resistSliding(inout vec4 rub, uint c, vec3 normal, float most, inout Touching t) {
+    vec3 tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
+    vec3 arm_a = solver_contacts[c].center_a.xyz, arm_b = solver_contacts[c].center_b.xyz;
+    vec4 mass = solver_contacts[c].rub_mass;
+    vec3 slip = velocityAt(t.b, arm_b) - velocityAt(t.a, arm_a);
+    vec2 speed = vec2(dot(slip, tangent), dot(slip, across));
+    vec2 total = rub.xy - vec2(mass.x * speed.x + mass.y * speed.y, mass.y * speed.x + mass.z * speed.y);
+    float size = length(total);
+    total *= size > most ? most / size : 1.0;
+    pushApart(t, arm_a, arm_b, (total.x - rub.x) * tangent + (total.y - rub.y) * across);
+    rub.xy = total;
+}
+
+void rubContact(uint c, vec4 normal, uint points, bool was_blow, inout Touching t) {
+    float pressed = 0.0;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) pressed += solver_contacts[c].points[k].pulse.x;
+    vec4 rub = was_blow ? vec4(0.0) : solver_contacts[c].rub;
+    float most = normal.w * pressed;
+    resistTwist(rub, normal.xyz, solver_contacts[c].center_a.w, most * solver_contacts[c].center_b.w, t);
+    resistSliding(rub, c, normal.xyz, most, t);
+    solver_contacts[c].rub = rub;
+}
+
+Touching touchingOf(uvec4 ids) {
+    SolverBody a = solver_bodies[ids.x], b = solver_bodies[ids.y];
+    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, a.turned, b.turned);
+}
+
+void keepMotion(uint body, Moving m) {
+    if (m.inverse_mass == 0.0) return;
+    solver_bodies[body].velocity.xyz = m.velocity;
+    solver_bodies[body].spin.xyz = m.spin;
+}
+
+void solveContact(uint c) {
+    uvec4 ids = solver_contacts[c].ids;
+    vec4 normal = solver_contacts[c].normal;
+    Touching t = touchingOf(ids);
+    vec4 limits = solver_contacts[c].rub_mass.w != 0.0 ? vec4(stiff.xyz, soft.w) : soft;
+    bool was_blow = with_push != 0u && isBlow(c, ids.z);
+    pressContact(c, normal.xyz, ids.z, limits, t);
+    if (with_push == 0u) rubContact(c, normal, ids.z, was_blow, t);
+    keepMotion(ids.x, t.a);
+    keepMotion(ids.y, t.b);
+}
+
+// What came in faster than a threshold leaves again with its share of that speed, where it was ever pressed in this step.
+void bounceContact(uint c) {
+    uvec4 ids = solver_contacts[c].ids;
+    vec3 normal = solver_contacts[c].normal.xyz;
+    float restitution = solver_contacts[c].tangent.w;
+    Touching t = touchingOf(ids);
+    float lag = 0.5 * gravity.w * approachOf(t.a.inverse_mass, t.b.inverse_mass, normal, gravity.xyz);
+    vec4 short_of = vec4(0.0), was = vec4(0.0);
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
+        SolverPoint p = solver_contacts[c].points[k];
+        bool bounces = restitution > 0.0 && p.pulse.z < -stiff.w && p.pulse.y > 0.0;
+        float speed = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
+        short_of[k] = bounces ? speed + restitution * p.pulse.z - lag : 0.0;
+        was[k] = p.pulse.x;
+    }
+    mat4 press = mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
+    vec4 total = max(was - press * short_of, vec4(0.0));
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
+        SolverPoint p = solver_contacts[c].points[k];
+        pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total[k] - was[k]) * normal);
+        solver_contacts[c].points[k].pulse.x = total[k];
+    }
+    keepMotion(ids.x, t.a);
+    keepMotion(ids.y, t.b);
+}

@@ -1,0 +1,34 @@
+// Bodies while they are solved: what an impulse does to them. Wants `solver_bodies` declared.
+#ifndef SOLVER_BODY_GLSL
+#define SOLVER_BODY_GLSL
+#include "lib/quaternion.glsl"
+#include "shared/solver.h"
+
+struct Moving {
+    vec3 velocity, spin;
+    vec3 diagonal, side; // of the inverse inertia: xx, yy, zz; xy, xz, yz
+    float inverse_mass;
+};
+
+Moving movingOf(SolverBody b) {
+    return Moving(b.velocity.xyz, b.spin.xyz, vec3(b.inertia.x, b.inertia.w, b.spin.w), vec3(b.inertia.yz, b.moved.w), b.velocity.w);
+}
+
+vec3 spinBy(Moving m, vec3 twist) {
+    return m.diagonal * twist + vec3(m.side.x * twist.y + m.side.y * twist.z, m.side.x * twist.x + m.side.z * twist.z,
+                                     m.side.y * twist.x + m.side.z * twist.y);
+}
+
+void push(inout Moving m, vec3 impulse, vec3 twist) {
+    m.velocity += m.inverse_mass * impulse;
+    m.spin += spinBy(m, twist);
+}
+
+vec3 velocityAt(Moving m, vec3 arm) { return m.velocity + cross(m.spin, arm); }
+
+// How much speed along v an impulse along u at the arm gives.
+float yieldAlong(Moving m, vec3 arm, vec3 u, vec3 v) {
+    return m.inverse_mass * dot(u, v) + dot(cross(arm, v), spinBy(m, cross(arm, u)));
+}
+
+#endif

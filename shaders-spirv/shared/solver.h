@@ -1,0 +1,87 @@
+// What the kernels of the solver and the host agree on. SI units.
+//
+// Contacts are solved by sequential impulses with soft constraints (Catto, "Solver2D", 2024): a step is cut into substeps; in
+// each, forces change velocities, the impulses of the last substep are applied again, contacts are solved with a soft push out
+// of what overlaps, bodies move, and contacts are solved once more without the push, so that it leaves no energy behind.
+// Contacts that share a moving body have different colors; those of one color are solved side by side.
+#ifndef SOLVER_H
+#define SOLVER_H
+
+#include "contact.h"
+#include "gpu_types.h"
+
+GPU_NAMESPACE_BEGIN
+
+// Indices into the counts of dynamics, beyond those of the broad phase; laid out like those of a fracture event (fracture.h).
+#define COUNT_CONTACTS 8      /* pairs with contact points */
+#define COUNT_FRESH_PAIRS 12  /* whose points are to be found anew */
+#define COUNT_FIRST_COLOR 16  /* then one for each of the wide colors */
+
+// The first colors hold most contacts and are dispatched each; the others are walked through by one workgroup. What has no
+// color at all is solved as if each contact had its own share of its bodies.
+#define WIDE_COLORS 8
+#define COLORS 64
+#define NO_COLOR COLORS /* in order behind all others */
+// With no more contacts than this one workgroup walks through all colors: its barriers cost less than dispatches.
+#define FEW_CONTACTS 1024
+
+// A body while it is solved. `moved` and `turned` count from the beginning of the step.
+struct SolverBody {
+    vec4 velocity; // w: inverse mass
+    vec4 spin;     // w: inverse inertia, world axes: zz
+    vec4 inertia;  // inverse, world axes: xx, xy, xz, yy
+    vec4 moved;    // w: inverse inertia, world axes: yz
+    vec4 turned;   // unit quaternion
+};
+
+struct SolverPoint {
+    vec4 arm_a; // frozen since the contact was found; w: separation at the beginning of the step
+    vec4 arm_b; // w: inverse of the effective mass along the normal, inverted
+    vec4 pulse; // impulse, the greatest of the step, speed of separation at the moment they meet, 1 after a blow
+};
+
+// A contact while it is solved, in the order of colors.
+struct SolverContact {
+    uvec4 ids;      // body a, body b, points, where it is remembered
+    vec4 normal;    // from A to B; w: friction
+    vec4 tangent;   // w: restitution
+    vec4 center_a;  // mean of the arms; w: effective mass against twisting
+    vec4 center_b;  // w: mean distance of the points from their center
+    vec4 rub;       // impulses along the tangent, across it, of twisting; w: share of its bodies, 1 where it has a color
+    vec4 rub_mass;  // effective mass in the tangent plane: 11, 12, 22; w: 1 where a body does not move
+    vec4 press[MANIFOLD_POINTS]; // effective mass of all points together along the normal: a symmetric matrix
+    SolverPoint points[MANIFOLD_POINTS];
+};
+
+// A contact from step to step, one for every pair of the broad phase.
+struct ContactMemory {
+    uvec4 ids;     // body a, body b, points, color
+    vec4 normal;   // w: friction
+    vec4 tangent;  // w: restitution
+    vec4 rub;      // as in SolverContact; w: 1 where the arms are kept, 0 where they are new
+    vec4 turn_a;   // of the bodies when the points were found
+    vec4 turn_b;
+    vec4 place;    // of B's center of mass then, from A's, own axes of A; w: 0
+    vec4 anchor_a[MANIFOLD_POINTS]; // own axes of A; w: impulse
+    vec4 anchor_b[MANIFOLD_POINTS]; // own axes of B; w: feature, as bits
+    vec4 arm_a[MANIFOLD_POINTS];    // world axes, when the points were found
+    vec4 arm_b[MANIFOLD_POINTS];
+};
+
+struct SolverPush {
+    vec4 gravity;     // w: length of a substep, s
+    vec4 soft;        // of two bodies that move: push per overlap, 1/s; share of the mass; share of the impulse; most push, m/s
+    vec4 stiff;       // the same where one does not move; w: least speed that bounces, m/s
+    uint color;       // the color, or the first of the rest
+    uint with_push;   // 1 while overlap is pushed out
+    uint bodies;
+    uint pad;
+};
+
+GPU_NAMESPACE_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 368);
+static_assert(sizeof(gpu::ContactMemory) == 368 && sizeof(gpu::SolverPush) == 64);
+#endif
+#endif

@@ -1,0 +1,24 @@
+// A step begins: what the solver wants of each body.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/rigid.glsl"
+#include "shared/solver.h"
+
+FLAT_KERNEL;
+READS(0, BodyState, bodies);
+READS(1, BodyShape, shapes);
+WRITES(2, SolverBody, solver_bodies);
+WRITES(3, vec4, spins); // that the momentum was last brought up to
+layout(push_constant) uniform Push { uint body_count; };
+
+void main() {
+    uint b = flatIndex();
+    if (b >= body_count) return;
+    BodyState state = bodies[b];
+    mat3 inverse = worldInertia(ownInverseInertia(shapes[b]), state.turn);
+    solver_bodies[b] = SolverBody(vec4(state.velocity.xyz, state.offset.w), vec4(state.spin.xyz, inverse[2][2]),
+                                  vec4(inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1]), vec4(0.0, 0.0, 0.0, inverse[1][2]),
+                                  vec4(0.0, 0.0, 0.0, 1.0));
+    spins[b] = vec4(state.spin.xyz, 0.0);
+}

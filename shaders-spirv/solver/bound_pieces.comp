@@ -1,0 +1,46 @@
+// Boxes of pieces for the broad phase: of where a piece is, where it will be at the end of the step, and a margin. Places far from
+// the origin round, so there boxes are wider.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/quaternion.glsl"
+#include "shared/body.h"
+#include "shared/hull.h"
+#include "shared/broad_phase.h"
+
+FLAT_KERNEL;
+READS(0, PieceRecord, pieces);
+READS(1, BodyState, bodies);
+READS(2, HullRecord, hulls);
+READS(3, vec4, hull_vertices);
+WRITES(4, vec4, box_low);
+WRITES(5, vec4, box_high);
+layout(push_constant) uniform Push {
+    vec4 gravity; // w: length of the step
+    float margin;
+    uint piece_count;
+};
+
+const float kRounding = 1.0 / 4194304.0;
+
+void main() {
+    uint p = flatIndex();
+    if (p >= piece_count) return;
+    uvec4 ids = pieces[p].ids;
+    BodyState body = bodies[ids.y];
+    bool moves = body.offset.w != 0.0;
+    HullRecord hull = hulls[ids.x];
+    vec3 low = vec3(3e38), high = vec3(-3e38);
+    for (uint v = 0u; v < HULL_VERTICES && v < hull.count.x; v++) {
+        vec3 arm = turned(body.turn, hull_vertices[hull.first.x + v].xyz);
+        low = min(low, arm);
+        high = max(high, arm);
+    }
+    vec3 way = moves ? gravity.w * body.velocity.xyz : vec3(0.0), origin = vec3(body.sector.xyz) * float(SECTOR_EDGE) + body.offset.xyz;
+    low = origin + min(low, low + way) - margin;
+    high = origin + max(high, high + way) + margin;
+    low -= abs(low) * kRounding;
+    high += abs(high) * kRounding;
+    box_low[p] = vec4(low, uintBitsToFloat(ids.y));
+    box_high[p] = vec4(high, uintBitsToFloat(moves ? 0u : BOX_STATIC));
+}

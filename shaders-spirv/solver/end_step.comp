@@ -1,0 +1,39 @@
+// A step ends: bodies stand where they have moved to. Where it failed they stay where they were, and it does not count.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/rigid.glsl"
+#include "shared/solver.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+UPDATES(1, BodyState, bodies);
+READS(2, BodyShape, shapes);
+READS(3, SolverBody, solver_bodies);
+READS(4, vec4, spins);
+UPDATES(5, uint, steps); // one word
+layout(push_constant) uniform Push { uint body_count; };
+
+#include "lib/take_up_spin.glsl"
+
+// Whole sectors go over from the offset, which stays in [-SECTOR_EDGE / 2, SECTOR_EDGE / 2).
+void moveTo(uint b, vec3 offset) {
+    const float edge = float(SECTOR_EDGE);
+    vec3 steps = floor(offset / edge + 0.5);
+    bodies[b].sector.xyz += ivec3(steps);
+    bodies[b].offset.xyz = offset - steps * edge;
+}
+
+void main() {
+    uint b = flatIndex();
+    if (b >= body_count || counts[STATUS_FAILED] != 0u) return;
+    if (b == 0u) steps[0]++;
+    if (bodies[b].offset.w == 0.0) return;
+    SolverBody s = solver_bodies[b];
+    vec4 turn = normalize(turnAfter(s.turned, bodies[b].turn));
+    takeUpSpin(b, ownInverseInertia(shapes[b]), turn, s.spin.xyz);
+    moveTo(b, bodies[b].offset.xyz + s.moved.xyz);
+    bodies[b].turn = turn;
+    bodies[b].velocity = vec4(s.velocity.xyz, 0.0);
+    bodies[b].spin = vec4(s.spin.xyz, 0.0);
+}

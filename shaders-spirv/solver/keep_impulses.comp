@@ -1,0 +1,22 @@
+// What contacts were pressed with is where the next step begins.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "shared/solver.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, SolverContact, solver_contacts);
+UPDATES(2, ContactMemory, memory);
+#include "lib/blow.glsl"
+
+void main() {
+    uint c = flatIndex();
+    if (c >= counts[COUNT_CONTACTS]) return;
+    uvec4 ids = solver_contacts[c].ids;
+    memory[ids.w].rub.xyz = isBlow(c, ids.z) ? vec3(0.0) : solver_contacts[c].rub.xyz;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
+        vec4 pulse = solver_contacts[c].points[k].pulse;
+        memory[ids.w].anchor_a[k].w = pulse.w != 0.0 ? 0.0 : pulse.x;
+    }
+}

@@ -1,0 +1,106 @@
+// What is remembered of a contact becomes what is solved: separations as they are now, effective masses, the speed of approach
+// that restitution goes by.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/solver_body.glsl"
+#include "shared/body.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, contact_pairs);
+READS(2, uint, contact_slots);
+READS(3, ContactMemory, memory);
+READS(4, BodyState, bodies);
+READS(5, SolverBody, solver_bodies);
+WRITES(6, SolverContact, solver_contacts);
+layout(push_constant) uniform Push { SolverPush push_; };
+#include "lib/approach.glsl"
+#include "lib/body_way.glsl"
+
+struct Pair {
+    Moving a, b;
+    vec4 turn_a, turn_b;
+    vec3 way;
+};
+
+float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
+
+// What falls until it hits comes in faster than it is now: by the energy of the way that is left, and by half a substep, since
+// speeds lag places by as much (lib/approach.glsl).
+float speedOfMeeting(float speed, float separation, Pair p, vec3 normal) {
+    float gain = approachOf(p.a.inverse_mass, p.b.inverse_mass, normal, push_.gravity.xyz), now = speed - 0.5 * push_.gravity.w * gain;
+    return speed < 0.0 ? -sqrt(max(now * now + 2.0 * gain * max(separation, 0.0), 0.0)) : speed;
+}
+
+SolverPoint pointOf(uint pair, uint k, Pair p, vec3 normal) {
+    vec3 anchor_a = turned(p.turn_a, memory[pair].anchor_a[k].xyz), anchor_b = turned(p.turn_b, memory[pair].anchor_b[k].xyz);
+    vec3 arm_a = memory[pair].arm_a[k].xyz, arm_b = memory[pair].arm_b[k].xyz;
+    float separation = dot(normal, p.way + anchor_b - anchor_a);
+    float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
+    float speed = speedOfMeeting(dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), separation, p, normal);
+    return SolverPoint(vec4(arm_a, separation), vec4(arm_b, inverseOf(yield_)), vec4(memory[pair].anchor_a[k].w, 0.0, speed, 0.0));
+}
+
+// Of friction at the center: the inverse of the two by two matrix of yields.
+vec3 rubMass(Pair p, vec3 arm_a, vec3 arm_b, vec3 u, vec3 v) {
+    float uu = yieldAlong(p.a, arm_a, u, u) + yieldAlong(p.b, arm_b, u, u);
+    float uv = yieldAlong(p.a, arm_a, u, v) + yieldAlong(p.b, arm_b, u, v);
+    float vv = yieldAlong(p.a, arm_a, v, v) + yieldAlong(p.b, arm_b, v, v);
+    float determinant = uu * vv - uv * uv;
+    return determinant > 0.0 ? vec3(vv, -uv, uu) / determinant : vec3(0.0);
+}
+
+// How much speed an impulse at each point gives at each other one, inverted. Four corners of a plate share three ways to move, so
+// the matrix A of that has no inverse: A / (A A + d d) is one for speeds that the points can have, and has nothing to say about
+// others, such as the noise of opposite corners against the other two (Tikhonov 1963). Impulses are as even as they can be.
+const float kDoubt = 0.02; // d, of the mean diagonal
+
+mat4 pressMass(uint pair, uint points, Pair p, vec3 normal) {
+    mat4 yields = mat4(1.0);
+    float trace = 0.0;
+    for (uint i = 0u; i < points; i++) {
+        vec3 twist_a = spinBy(p.a, cross(memory[pair].arm_a[i].xyz, normal)), twist_b = spinBy(p.b, cross(memory[pair].arm_b[i].xyz, normal));
+        for (uint j = 0u; j < points; j++)
+            yields[i][j] = p.a.inverse_mass + p.b.inverse_mass + dot(cross(memory[pair].arm_a[j].xyz, normal), twist_a) +
+                           dot(cross(memory[pair].arm_b[j].xyz, normal), twist_b);
+        trace += yields[i][i];
+    }
+    if (trace == 0.0) return mat4(0.0);
+    yields *= float(points) / trace;
+    for (uint i = 0u; i < MANIFOLD_POINTS; i++)
+        for (uint j = 0u; j < MANIFOLD_POINTS; j++) yields[i][j] = i < points && j < points ? yields[i][j] : 0.0;
+    return float(points) / trace * (yields * inverse(yields * yields + mat4(kDoubt * kDoubt)));
+}
+
+void main() {
+    uint at = flatIndex();
+    if (at >= counts[COUNT_CONTACTS]) return;
+    uint pair = contact_pairs[at], c = contact_slots[at];
+    uvec4 ids = memory[pair].ids;
+    vec4 normal = memory[pair].normal, tangent = memory[pair].tangent;
+    Pair p = Pair(movingOf(solver_bodies[ids.x]), movingOf(solver_bodies[ids.y]), bodies[ids.x].turn, bodies[ids.y].turn,
+                  wayBetween(ids.x, ids.y));
+    vec3 center_a = vec3(0.0), center_b = vec3(0.0);
+    uint points = min(ids.z, MANIFOLD_POINTS);
+    for (uint k = 0u; k < points; k++) {
+        center_a += memory[pair].arm_a[k].xyz / float(points);
+        center_b += memory[pair].arm_b[k].xyz / float(points);
+    }
+    float reach = 0.0;
+    for (uint k = 0u; k < points; k++) {
+        reach += length(memory[pair].arm_a[k].xyz - center_a) / float(points);
+        solver_contacts[c].points[k] = pointOf(pair, k, p, normal.xyz);
+    }
+    float twist = dot(normal.xyz, spinBy(p.a, normal.xyz) + spinBy(p.b, normal.xyz));
+    bool fixed_ = p.a.inverse_mass == 0.0 || p.b.inverse_mass == 0.0;
+    solver_contacts[c].ids = uvec4(ids.xy, points, pair);
+    solver_contacts[c].normal = normal;
+    solver_contacts[c].tangent = tangent;
+    solver_contacts[c].center_a = vec4(center_a, inverseOf(twist));
+    solver_contacts[c].center_b = vec4(center_b, reach);
+    mat4 press = pressMass(pair, points, p, normal.xyz);
+    for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
+    solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
+    solver_contacts[c].rub_mass = vec4(rubMass(p, center_a, center_b, tangent.xyz, cross(normal.xyz, tangent.xyz)), fixed_ ? 1.0 : 0.0);
+}

@@ -1,0 +1,80 @@
+// The memory of this step: what still serves is taken over as it is; new points take the impulses of old ones that are the same
+// features.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/quaternion.glsl"
+#include "shared/broad_phase.h"
+#include "shared/solver.h"
+#include "shared/body.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, recalled);
+READS(2, uint, fresh_slots); // prefix sum of `fresh`: where a fresh pair's manifold lies
+READS(3, Manifold, manifolds);
+READS(4, ContactMemory, old_memory);
+READS(5, BodyState, bodies);
+READS(6, BodyShape, shapes);
+WRITES(7, ContactMemory, memory);
+WRITES(8, uint, touches); // 1 where there are points
+#include "lib/body_way.glsl"
+
+const float kFar = 3e38;
+
+vec3 anyTangent(vec3 normal) {
+    if (normal == vec3(0.0)) return normal; // of a pair that does not touch
+    vec3 axis = abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    return normalize(cross(normal, axis));
+}
+
+float impulseOf(uint old, uint feature) {
+    float found = 0.0;
+    uint points = old == NO_INDEX ? 0u : old_memory[old].ids.z;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++)
+        found = floatBitsToUint(old_memory[old].anchor_b[k].w) == feature ? old_memory[old].anchor_a[k].w : found;
+    return found;
+}
+
+// Friction holds in a plane, so what it was in the old one is turned into the new.
+vec3 rubOf(uint old, vec3 normal, vec3 tangent) {
+    vec3 was = old_memory[old].normal.xyz, along = old_memory[old].tangent.xyz, rub = old_memory[old].rub.xyz;
+    vec3 slide = rub.x * along + rub.y * cross(was, along);
+    return vec3(dot(slide, tangent), dot(slide, cross(normal, tangent)), rub.z);
+}
+
+void remember(uint p, uint slot, uint old) {
+    Manifold m = manifolds[slot];
+    uint a = m.pair.z, b = m.pair.w, color = old == NO_INDEX ? NO_INDEX : old_memory[old].ids.w;
+    vec4 turn_a = bodies[a].turn, turn_b = bodies[b].turn;
+    vec3 tangent = anyTangent(m.normal.xyz);
+    vec4 surface_a = vec4(shapes[a].inverse_inertia[0].w, shapes[a].inverse_inertia[1].w, 0.0, 0.0);
+    vec4 surface_b = vec4(shapes[b].inverse_inertia[0].w, shapes[b].inverse_inertia[1].w, 0.0, 0.0);
+    memory[p].ids = uvec4(a, b, min(m.info.x, MANIFOLD_POINTS), color);
+    memory[p].normal = vec4(m.normal.xyz, sqrt(surface_a.x * surface_b.x));
+    memory[p].tangent = vec4(tangent, max(surface_a.y, surface_b.y));
+    memory[p].rub = vec4(old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent), 0.0);
+    memory[p].turn_a = turn_a;
+    memory[p].turn_b = turn_b;
+    memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), 0.0);
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < m.info.x; k++) {
+        uint feature = m.points[k].id.x;
+        memory[p].anchor_a[k] = vec4(turned(turnBack(turn_a), m.points[k].arm_a.xyz), impulseOf(old, feature));
+        memory[p].anchor_b[k] = vec4(turned(turnBack(turn_b), m.points[k].arm_b.xyz), uintBitsToFloat(feature));
+        memory[p].arm_a[k] = m.points[k].arm_a;
+        memory[p].arm_b[k] = m.points[k].arm_b;
+    }
+}
+
+void main() {
+    uint p = flatIndex();
+    if (p >= counts[COUNT_BOX_PAIRS]) return;
+    uint slot = fresh_slots[p], old = recalled[p];
+    bool fresh = fresh_slots[p + 1u] != slot;
+    if (fresh) remember(p, slot, old);
+    else {
+        memory[p] = old_memory[old];
+        memory[p].rub.w = 1.0;
+    }
+    touches[p] = (fresh ? manifolds[slot].info.x : old_memory[old].ids.z) != 0u ? 1u : 0u;
+}

@@ -1,0 +1,55 @@
+// A built-in scene on the device, and what can be measured of it in double precision.
+#pragma once
+
+#include "modules/brittle/dynamics/scene_contents.h"
+#include "modules/brittle/scene/library/builtin_scenes.h"
+#include "tests/reference/convex.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace support {
+
+class SceneRun {
+public:
+    // Fails the test where the scene cannot be made.
+    explicit SceneRun(const std::string& name);
+
+    const brittle::SceneDescription& scene() const { return scene_; }
+    brittle::World& world() { return *world_; }
+    void step(uint32_t steps); // and reads the bodies; fails the test where that fails
+    void finish() { step(scene_.step.steps - made_); }
+
+    size_t bodyCount() const { return now_.size(); }
+    bool moves(size_t body) const { return now_[body].offset.w != 0; }
+    const gpu::BodyState& state(size_t body) const { return now_[body]; }
+    brittle::Double3 place(size_t body) const;
+    brittle::Double3 way(size_t body) const; // since the beginning
+    double speed(size_t body) const;
+
+    // Over all bodies that move.
+    double fastest() const;
+    double furthestWay() const;
+    double meanWay() const;
+    double kineticEnergy() const;
+    brittle::Double3 momentum() const;
+    brittle::Double3 angularMomentum() const; // about the origin of the world
+    bool isFinite() const;
+    // How deep pieces of different bodies lie in each other, the deepest last; pairs that do not overlap are left out.
+    std::vector<double> overlaps() const;
+
+private:
+    reference::Convex pieceInWorld(size_t piece) const;
+
+    brittle::SceneDescription scene_;
+    brittle::WorldContents contents_;
+    std::unique_ptr<brittle::World> world_;
+    std::vector<gpu::BodyState> first_, now_;
+    uint32_t made_ = 0;
+};
+
+// Of sorted values; 0 of none.
+double percentile(const std::vector<double>& sorted, double share);
+
+} // namespace support
