@@ -44,7 +44,7 @@ void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
     p.pulse.w = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz)) < -stiff.w ? 1.0 : 0.0;
 }
 
-// All points at once, as if none of them had to be held at 0.
+// All points at once, if none of them would have to pull.
 void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec4 separation, uint points, vec3 normal, vec4 spring, inout Touching t) {
     vec4 short_of = vec4(0.0), mass_share = vec4(1.0), impulse_share = vec4(0.0), was = vec4(0.0);
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
@@ -58,7 +58,9 @@ void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec4 separation
         impulse_share[k] = pushed ? spring.z : 0.0;
     }
     mat4 press = mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
-    vec4 total = max(was - mass_share * (press * short_of) - impulse_share * was, vec4(0.0));
+    vec4 total = was - mass_share * (press * short_of) - impulse_share * was;
+    // Where a point would have to pull, what the others would be pressed with is too much: that is for the points one by one.
+    total = all(greaterThanEqual(total, vec4(0.0))) ? total : was;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         if (k < points) pushApart(t, p[k].arm_a.xyz, p[k].arm_b.xyz, (total[k] - was[k]) * normal);
         p[k].pulse.x = k < points ? total[k] : 0.0;
@@ -66,8 +68,7 @@ void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec4 separation
     }
 }
 
-// Together, then there and back again over the points for what had to be held at 0, so that none of them comes first: what is left
-// of the error turns nothing.
+// Together, then there and back again over the points, so that none of them comes first: what is left of the error turns nothing.
 void pressContact(uint c, vec3 normal, uint points, vec4 spring, inout Touching t) {
     SolverPoint p[MANIFOLD_POINTS];
     float separation[MANIFOLD_POINTS];
@@ -139,27 +140,35 @@ void solveContact(uint c) {
     keepMotion(ids.y, t.b);
 }
 
-// What came in faster than a threshold leaves again with its share of that speed, where it was ever pressed in this step.
+// How much a point lacks of the speed that it should leave with; 0 where it does not bounce.
+float lacksOf(SolverPoint p, vec3 normal, float restitution, float lag, Touching t) {
+    bool bounces = restitution > 0.0 && p.pulse.z < -stiff.w && p.pulse.y > 0.0;
+    float speed = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
+    return bounces ? speed + restitution * p.pulse.z - lag : 0.0;
+}
+
+// What came in faster than a threshold leaves again with its share of that speed, where it was ever pressed in this step: all
+// points at once, or, where one would have to pull, one by one.
 void bounceContact(uint c) {
     uvec4 ids = solver_contacts[c].ids;
     vec3 normal = solver_contacts[c].normal.xyz;
     float restitution = solver_contacts[c].tangent.w;
     Touching t = touchingOf(ids);
     float lag = 0.5 * gravity.w * approachOf(t.a.inverse_mass, t.b.inverse_mass, normal, gravity.xyz);
-    vec4 short_of = vec4(0.0), was = vec4(0.0);
+    vec4 lacks = vec4(0.0), was = vec4(0.0);
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         SolverPoint p = solver_contacts[c].points[k];
-        bool bounces = restitution > 0.0 && p.pulse.z < -stiff.w && p.pulse.y > 0.0;
-        float speed = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
-        short_of[k] = bounces ? speed + restitution * p.pulse.z - lag : 0.0;
+        lacks[k] = lacksOf(p, normal, restitution, lag, t);
         was[k] = p.pulse.x;
     }
     mat4 press = mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
-    vec4 total = max(was - press * short_of, vec4(0.0));
+    vec4 together = was - press * lacks;
+    bool at_once = all(greaterThanEqual(together, vec4(0.0)));
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         SolverPoint p = solver_contacts[c].points[k];
-        pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total[k] - was[k]) * normal);
-        solver_contacts[c].points[k].pulse.x = total[k];
+        float alone = max(was[k] - p.arm_b.w * lacksOf(p, normal, restitution, lag, t), 0.0), total = at_once ? together[k] : alone;
+        pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - was[k]) * normal);
+        solver_contacts[c].points[k].pulse.x = total;
     }
     keepMotion(ids.x, t.a);
     keepMotion(ids.y, t.b);

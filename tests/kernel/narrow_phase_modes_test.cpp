@@ -78,9 +78,13 @@ TEST(SmallFixedAxes, NeverTakeHullsThatOverlapForApart) {
         for (uint32_t k = 0; k < fixed.size(); ++k) {
             touching += fixed[k].info.x > 0;
             const bool overlaps = exact[k].info.x > 0 && exact[k].points[0].arm_a.w < 0;
-            if (overlaps) EXPECT_GT(fixed[k].info.x, 0u) << k << " along " << axes;
+            if (overlaps) {
+                EXPECT_GT(fixed[k].info.x, 0u) << k << " along " << axes;
+            }
         }
-        if (before > 0) EXPECT_LE(touching, before);
+        if (before > 0) {
+            EXPECT_LE(touching, before);
+        }
         before = touching;
     }
     HullScene boxes;
