@@ -2,6 +2,7 @@
 
 #include "modules/brittle/dynamics/step.h"
 #include "modules/brittle/fracture/fetch.h"
+#include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/upload.h"
 
 #include <cmath>
@@ -41,8 +42,9 @@ uint64_t hashOf(std::span<const std::byte> bytes) {
 
 class DeviceWorld : public World {
 public:
-    DeviceWorld(engine::Device& device, WorldBuffers buffers, const StepSettings& settings)
-        : device_(device), kernels_(device), b_(std::move(buffers)), settings_(settings) {}
+    DeviceWorld(engine::Device& device, WorldBuffers buffers, const StepSettings& settings, uint32_t group_size)
+        : device_(device), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, group_size}}), b_(std::move(buffers)),
+          settings_(settings) {}
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
@@ -196,11 +198,13 @@ private:
 Result<std::unique_ptr<World>> World::create(engine::Device& device, const WorldContents& contents,
                                              const StepSettings& settings, const WorldBudget& budget) {
     if (auto sound = checkSettings(settings); !sound) return sound.error();
+    const uint32_t group_size = budget.group_size == 0 ? GROUP_SIZE : budget.group_size;
+    if (auto sound = checkGroupSize(group_size, device.limits()); !sound) return sound.error();
     if (contents.bodies.empty()) return Error{ErrorCode::BadInput, "a world without bodies; add at least one"};
     const uint64_t chosen = std::max<uint64_t>(kLeastPairs, uint64_t{kPairsPerPiece} * contents.pieces.size());
     auto buffers = makeWorldBuffers(device, contents, budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(chosen));
     if (!buffers) return buffers.error();
-    auto world = std::make_unique<DeviceWorld>(device, std::move(*buffers), settings);
+    auto world = std::make_unique<DeviceWorld>(device, std::move(*buffers), settings, group_size);
     if (auto recorded = world->record(); !recorded) return recorded.error();
     return std::unique_ptr<World>(std::move(world));
 }

@@ -31,6 +31,8 @@ struct StepSettings {
 // How much there is room for; what is 0 is chosen by the contents.
 struct WorldBudget {
     uint32_t pairs = 0;
+    uint32_t group_size =
+        0; // lanes of a workgroup where a lane is an element (Fracture::create); states are the same, bit for bit
 };
 
 struct WorldCounts {

@@ -1,5 +1,6 @@
 #include "modules/brittle/fracture/fracture.h"
 
+#include "modules/brittle/fracture/group_size.h"
 #include "engine/kernel_warmup.h"
 #include "modules/brittle/fracture/event.h"
 #include "modules/brittle/fracture/readback.h"
@@ -269,14 +270,6 @@ private:
     engine::KernelWarmup warmup_;
     Capacities::Rare met_; // by earlier events: recorded from the start, since a second attempt costs more than idle dispatches
 };
-
-engine::Result<void> checkGroupSize(uint32_t size, const VkPhysicalDeviceLimits& limits) {
-    const uint32_t most = std::min({256u, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]});
-    if (std::has_single_bit(size) && size >= 8 && size <= most) return {};
-    return engine::Error{engine::ErrorCode::BadInput, "workgroups of " + std::to_string(size) +
-                                                          " lanes; give a power of two from 8 to " +
-                                                          std::to_string(std::bit_floor(most))};
-}
 
 } // namespace
 
