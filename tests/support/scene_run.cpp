@@ -14,9 +14,8 @@ namespace {
 using brittle::Double3;
 using brittle::operator+, brittle::operator-, brittle::operator*, brittle::operator+=;
 
-brittle::Fracture* fracture() {
-    static const auto made = brittle::Fracture::create(engine_test::device());
-    return made ? made->get() : nullptr;
+bool hasCells(const brittle::SceneDescription& scene) {
+    return std::ranges::any_of(scene.bodies, [](const brittle::BodyDescription& b) { return b.shape.cells.sites != 0; });
 }
 
 Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
@@ -39,7 +38,12 @@ SceneRun::SceneRun(const std::string& name) {
     if (!scene) ADD_FAILURE() << scene.error().message;
     if (!scene) return;
     scene_ = *scene;
-    auto contents = brittle::contentsOf(scene_, ".", fracture());
+    std::unique_ptr<brittle::Fracture> fracture;
+    if (hasCells(scene_)) {
+        auto made = brittle::Fracture::create(engine_test::device());
+        if (made) fracture = std::move(*made);
+    }
+    auto contents = brittle::contentsOf(scene_, ".", fracture.get());
     const auto settings = brittle::settingsOf(scene_);
     if (!contents || !settings) {
         ADD_FAILURE() << (contents ? settings.error().message : contents.error().message);
