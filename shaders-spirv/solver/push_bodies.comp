@@ -17,14 +17,16 @@ layout(push_constant) uniform Push { SolverPush push_; };
 vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     uint points = solver_contacts[c].ids.z;
     vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
-    vec4 rub = isBlow(c, points) ? vec4(0.0) : solver_contacts[c].rub;
+    vec4 kept = solver_contacts[c].rub, rub = isBlow(c, points) ? vec4(0.0) : kept;
     vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
-    twist = cross(is_b ? solver_contacts[c].center_b.xyz : solver_contacts[c].center_a.xyz, slide) + rub.z * normal;
+    vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
+    twist = cross(is_b ? center_b : center_a, slide) + rub.z * normal;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) {
         vec4 pulse = solver_contacts[c].points[k].pulse;
         vec3 pressed = (pulse.w != 0.0 ? 0.0 : pulse.x) * normal;
         sum += pressed;
-        twist += cross(is_b ? solver_contacts[c].points[k].arm_b.xyz : solver_contacts[c].points[k].arm_a.xyz, pressed);
+        vec3 arm_a = solver_contacts[c].points[k].arm_a.xyz, arm_b = solver_contacts[c].points[k].arm_b.xyz;
+        twist += cross(is_b ? arm_b : arm_a, pressed);
     }
     return sum;
 }
@@ -35,10 +37,12 @@ void main() {
     Moving m = movingOf(solver_bodies[b]);
     if (m.inverse_mass == 0.0) return;
     vec3 impulse = vec3(0.0), twist = vec3(0.0);
-    for (uint k = adjacency_start[b]; k < adjacency_start[b + 1u]; k++) {
-        bool is_b = (adjacency[k] & 1u) != 0u;
+    uint first = adjacency_start[b], last = adjacency_start[b + 1u];
+    for (uint k = first; k < last; k++) {
+        uint entry = adjacency[k];
+        bool is_b = (entry & 1u) != 0u;
         vec3 turning;
-        vec3 one = impulseOf(adjacency[k] >> 1, is_b, turning);
+        vec3 one = impulseOf(entry >> 1, is_b, turning);
         impulse += is_b ? one : -one;
         twist += is_b ? turning : -turning;
     }

@@ -39,5 +39,6 @@ void main() {
         memoryBarrierBuffer();
         barrier();
     }
-    for (uint c = color_start[NO_COLOR]; lane == 0u && c < color_start[NO_COLOR + 1u]; c++) solve(c);
+    uint begin = color_start[NO_COLOR], end = color_start[NO_COLOR + 1u];
+    for (uint c = begin; lane == 0u && c < end; c++) solve(c);
 }

@@ -46,7 +46,7 @@ std::vector<gpu::BodyState> bodiesOf(World& world) {
 }
 
 // Symplectic Euler in substeps: after n of them the way is g h^2 n (n + 1) / 2.
-TEST(SmallWorld, ABodyFallsAsGravityHasIt) {
+TEST(World, ABodyFallsAsGravityHasIt) {
     auto world = worldOf({support::box({1, 1, 1}, {3, 100, -20})});
     run(*world, 60);
     const gpu::BodyState body = bodiesOf(*world).at(0);
@@ -125,7 +125,7 @@ TEST(World, GoesOnFromASavedStateAsIfNothingHadBeen) {
     EXPECT_FALSE(second->restore(std::span(*saved).first(saved->size() - 1)));
 }
 
-TEST(SmallWorld, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
+TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
     WorldContents contents;
     for (int k = 0; k < 5; ++k)
         ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.99 * k, 0})));
