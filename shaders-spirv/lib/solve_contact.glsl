@@ -1,11 +1,11 @@
-// One contact, solved once: normal impulses point by point, then friction for all points together at their center, and against twisting about it.
+// One contact, solved once: normal impulses of its points; then, where nothing is pushed out, friction for
+// all points together at their center, and against twisting about it.
 //
 // A point that is still apart may close its gap in this substep and no faster. One that overlaps is pushed out as a damped
 // spring would, which takes some of the impulse back as it gives; the solve without push then takes out the speed of that push.
 // Wants `solver_bodies` and `solver_contacts` declared, and the push constants of SolverPush.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
-#include "lib/blow.glsl"
 
 struct Touching {
     Moving a, b;
@@ -24,13 +24,26 @@ void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {
     push(t.b, impulse, cross(arm_b, impulse));
 }
 
-// separation: how far the points are apart, soft: the spring that pushes them if they overlap
-void solvePoint(inout SolverPoint p, float separation, vec3 normal, vec4 spring, inout Touching t) {
+// Of separation, along the normal.
+float speedAt(SolverPoint p, vec3 normal, Touching t) {
+    return dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
+}
+
+mat4 pressOf(uint c) {
+    return mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
+}
+
+// What a point that is so far apart asks for: the speed that it may close with or is pushed with, and the shares of mass and
+// impulse that count.
+vec3 demandOf(float separation, vec4 spring) {
     bool apart = separation > 0.0, pushed = !apart && with_push != 0u;
     float bias = apart ? separation / gravity.w : (pushed ? max(spring.x * separation, -spring.w) : 0.0);
-    float mass_share = pushed ? spring.y : 1.0, impulse_share = pushed ? spring.z : 0.0;
-    float speed = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
-    float impulse = -p.arm_b.w * mass_share * (speed + bias) - impulse_share * p.pulse.x;
+    return vec3(bias, pushed ? spring.y : 1.0, pushed ? spring.z : 0.0);
+}
+
+void solvePoint(inout SolverPoint p, float separation, vec3 normal, vec4 spring, inout Touching t) {
+    vec3 demand = demandOf(separation, spring);
+    float impulse = -p.arm_b.w * demand.y * (speedAt(p, normal, t) + demand.x) - demand.z * p.pulse.x;
     float total = max(p.pulse.x + impulse, 0.0);
     pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - p.pulse.x) * normal);
     p.pulse.x = total;
@@ -41,24 +54,22 @@ void solvePoint(inout SolverPoint p, float separation, vec3 normal, vec4 spring,
 void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
     if (with_push == 0u) return;
     p.pulse.x = p.pulse.w != 0.0 ? 0.0 : p.pulse.x;
-    p.pulse.w = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz)) < -stiff.w ? 1.0 : 0.0;
+    p.pulse.w = speedAt(p, normal, t) < -stiff.w ? 1.0 : 0.0;
 }
 
 // All points at once, if none of them would have to pull.
 void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec4 separation, uint points, vec3 normal, vec4 spring, inout Touching t) {
     vec4 short_of = vec4(0.0), mass_share = vec4(1.0), impulse_share = vec4(0.0), was = vec4(0.0);
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
-        bool there = k < points, apart = separation[k] > 0.0, pushed = !apart && with_push != 0u;
-        float bias = apart ? separation[k] / gravity.w : (pushed ? max(spring.x * separation[k], -spring.w) : 0.0);
-        float speed = dot(normal, velocityAt(t.b, p[k].arm_b.xyz) - velocityAt(t.a, p[k].arm_a.xyz));
+        vec3 demand = demandOf(separation[k], spring);
+        float lacks = speedAt(p[k], normal, t) + demand.x;
         // A point that is apart and will stay so is no reason to pull.
-        short_of[k] = there && (speed + bias < 0.0 || p[k].pulse.x > 0.0) ? speed + bias : 0.0;
+        short_of[k] = k < points && (lacks < 0.0 || p[k].pulse.x > 0.0) ? lacks : 0.0;
         was[k] = p[k].pulse.x;
-        mass_share[k] = pushed ? spring.y : 1.0;
-        impulse_share[k] = pushed ? spring.z : 0.0;
+        mass_share[k] = demand.y;
+        impulse_share[k] = demand.z;
     }
-    mat4 press = mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
-    vec4 total = was - mass_share * (press * short_of) - impulse_share * was;
+    vec4 total = was - mass_share * (pressOf(c) * short_of) - impulse_share * was;
     // Where a point would have to pull, what the others would be pressed with is too much: that is for the points one by one.
     total = all(greaterThanEqual(total, vec4(0.0))) ? total : was;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
@@ -107,10 +118,10 @@ void resistSliding(inout vec4 rub, uint c, vec3 normal, float most, inout Touchi
     rub.xy = total;
 }
 
-void rubContact(uint c, vec4 normal, uint points, bool was_blow, inout Touching t) {
+void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
     float pressed = 0.0;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) pressed += solver_contacts[c].points[k].pulse.x;
-    vec4 rub = was_blow ? vec4(0.0) : solver_contacts[c].rub;
+    vec4 rub = solver_contacts[c].rub;
     float most = normal.w * pressed;
     resistTwist(rub, normal.xyz, solver_contacts[c].center_a.w, most * solver_contacts[c].center_b.w, t);
     resistSliding(rub, c, normal.xyz, most, t);
@@ -133,9 +144,8 @@ void solveContact(uint c) {
     vec4 normal = solver_contacts[c].normal;
     Touching t = touchingOf(ids);
     vec4 limits = solver_contacts[c].rub_mass.w != 0.0 ? vec4(stiff.xyz, soft.w) : soft;
-    bool was_blow = with_push != 0u && isBlow(c, ids.z);
     pressContact(c, normal.xyz, ids.z, limits, t);
-    if (with_push == 0u) rubContact(c, normal, ids.z, was_blow, t);
+    if (with_push == 0u) rubContact(c, normal, ids.z, t);
     keepMotion(ids.x, t.a);
     keepMotion(ids.y, t.b);
 }
@@ -143,8 +153,7 @@ void solveContact(uint c) {
 // How much a point lacks of the speed that it should leave with; 0 where it does not bounce.
 float lacksOf(SolverPoint p, vec3 normal, float restitution, float lag, Touching t) {
     bool bounces = restitution > 0.0 && p.pulse.z < -stiff.w && p.pulse.y > 0.0;
-    float speed = dot(normal, velocityAt(t.b, p.arm_b.xyz) - velocityAt(t.a, p.arm_a.xyz));
-    return bounces ? speed + restitution * p.pulse.z - lag : 0.0;
+    return bounces ? speedAt(p, normal, t) + restitution * p.pulse.z - lag : 0.0;
 }
 
 // What came in faster than a threshold leaves again with its share of that speed, where it was ever pressed in this step: all
@@ -161,8 +170,7 @@ void bounceContact(uint c) {
         lacks[k] = lacksOf(p, normal, restitution, lag, t);
         was[k] = p.pulse.x;
     }
-    mat4 press = mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
-    vec4 together = was - press * lacks;
+    vec4 together = was - pressOf(c) * lacks;
     bool at_once = all(greaterThanEqual(together, vec4(0.0)));
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         SolverPoint p = solver_contacts[c].points[k];

@@ -18,7 +18,7 @@ GPU_NAMESPACE_BEGIN
 #define COUNT_FIRST_COLOR 16  /* then one for each of the wide colors */
 
 // The first colors hold most contacts and are dispatched each; the others are walked through by one workgroup. What has no
-// color at all is solved as if each contact had its own share of its bodies.
+// color at all goes one by one in the end.
 #define WIDE_COLORS 8
 #define COLORS 64
 #define NO_COLOR COLORS /* in order behind all others */
@@ -36,7 +36,7 @@ struct SolverBody {
 
 struct SolverPoint {
     vec4 arm_a; // frozen since the contact was found; w: separation at the beginning of the step
-    vec4 arm_b; // w: inverse of the effective mass along the normal, inverted
+    vec4 arm_b; // w: effective mass along the normal
     vec4 pulse; // impulse, the greatest of the step, speed of separation at the moment they meet, 1 after a blow
 };
 
@@ -47,7 +47,7 @@ struct SolverContact {
     vec4 tangent;   // w: restitution
     vec4 center_a;  // mean of the arms; w: effective mass against twisting
     vec4 center_b;  // w: mean distance of the points from their center
-    vec4 rub;       // impulses along the tangent, across it, of twisting; w: share of its bodies, 1 where it has a color
+    vec4 rub;       // impulses along the tangent, across it, of twisting; w: unused
     vec4 rub_mass;  // effective mass in the tangent plane: 11, 12, 22; w: 1 where a body does not move
     vec4 press[MANIFOLD_POINTS]; // effective mass of all points together along the normal: a symmetric matrix
     SolverPoint points[MANIFOLD_POINTS];

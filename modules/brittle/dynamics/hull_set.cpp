@@ -1,5 +1,7 @@
 #include "modules/brittle/dynamics/hull_set.h"
 
+#include "modules/brittle/mesh/vector_math.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,18 +14,11 @@ namespace {
 using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
-using Double3 = std::array<double, 3>;
 using Loops = std::span<const std::vector<uint32_t>>;
 using EdgeSides = std::map<std::array<uint32_t, 2>, uint32_t>; // directed edge to the face on whose loop it runs
 
 constexpr double kBulge = 1e-3; // of the radius
 
-Double3 placeOf(const Float3& v) { return {v[0], v[1], v[2]}; }
-Double3 minus(const Double3& a, const Double3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Double3 cross(const Double3& a, const Double3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 float narrow(double x) { return static_cast<float>(x); }
 
 Error refuse(const std::string& why) {
@@ -78,11 +73,10 @@ gpu::vec4 ballOf(std::span<const Float3> vertices) {
 
 // By Newell's method, through the middle of the corners' heights.
 gpu::vec4 planeOf(std::span<const Float3> vertices, const std::vector<uint32_t>& loop) {
-    const Double3 base = placeOf(vertices[loop[0]]);
+    const Double3 base = toDouble(vertices[loop[0]]);
     Double3 n = {0, 0, 0};
     for (size_t c = 0; c < loop.size(); ++c) {
-        const Double3 p = minus(placeOf(vertices[loop[c]]), base),
-                      q = minus(placeOf(vertices[loop[(c + 1) % loop.size()]]), base);
+        const Double3 p = toDouble(vertices[loop[c]]) - base, q = toDouble(vertices[loop[(c + 1) % loop.size()]]) - base;
         const Double3 part = cross(p, q);
         for (size_t k = 0; k < 3; ++k)
             n[k] += part[k];
@@ -92,8 +86,8 @@ gpu::vec4 planeOf(std::span<const Float3> vertices, const std::vector<uint32_t>&
         x = size > 0 ? x / size : 0;
     double low = dot(n, base), high = low;
     for (const uint32_t c : loop) {
-        low = std::min(low, dot(n, placeOf(vertices[c])));
-        high = std::max(high, dot(n, placeOf(vertices[c])));
+        low = std::min(low, dot(n, toDouble(vertices[c])));
+        high = std::max(high, dot(n, toDouble(vertices[c])));
     }
     return {narrow(n[0]), narrow(n[1]), narrow(n[2]), narrow((low + high) / 2)};
 }
@@ -101,7 +95,7 @@ gpu::vec4 planeOf(std::span<const Float3> vertices, const std::vector<uint32_t>&
 Result<void> checkConvex(std::span<const Float3> vertices, const gpu::vec4& plane, double radius, size_t face) {
     if (plane.x == 0 && plane.y == 0 && plane.z == 0) return refuse("face " + std::to_string(face) + " has no area");
     for (const Float3& v : vertices) {
-        const double height = dot({plane.x, plane.y, plane.z}, placeOf(v)) - plane.w;
+        const double height = dot({plane.x, plane.y, plane.z}, toDouble(v)) - plane.w;
         if (height > kBulge * radius) return refuse("a vertex lies beyond face " + std::to_string(face));
     }
     return {};

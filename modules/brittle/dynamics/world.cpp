@@ -78,7 +78,7 @@ public:
         const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()},
                                 {b_.step.color_start, colors.data(), 4 * colors.size()}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
-        WorldCounts c = {b_.sizes.bodies,         b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS], 0,
+        WorldCounts c = {b_.sizes.bodies, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS],
                          words[COUNT_FRESH_PAIRS]};
         for (uint32_t k = 0; k < COLORS; k++)
             if (colors[k + 1] != colors[k]) c.colors = k + 1;

@@ -36,7 +36,7 @@ struct WorldBudget {
 };
 
 struct WorldCounts {
-    uint32_t bodies = 0, pieces = 0, pairs = 0, contacts = 0, points = 0;
+    uint32_t bodies = 0, pieces = 0, pairs = 0, contacts = 0;
     uint32_t fresh = 0;     // pairs whose points were found anew
     uint32_t colors = 0;    // in use
     uint32_t colorless = 0; // contacts for which there was no color left; they are solved one by one
