@@ -54,6 +54,10 @@ struct PipelineState {
         depth.depthTestEnable = depth.depthWriteEnable = with_vertices ? VK_TRUE : VK_FALSE;
         depth.depthCompareOp = VK_COMPARE_OP_LESS;
         write.colorWriteMask = 0xf;
+        write.blendEnable = with_vertices ? VK_TRUE : VK_FALSE;
+        write.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+        write.dstColorBlendFactor = write.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        write.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
         blend.attachmentCount = 1;
         blend.pAttachments = &write;
         dynamic.dynamicStateCount = 2;
@@ -125,10 +129,11 @@ Result<void> DrawPipelines::createRenderPass(VkFormat color, VkFormat depth) {
 }
 
 Result<void> DrawPipelines::createLayouts() {
-    const VkDescriptorSetLayoutBinding matrices{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT, nullptr};
+    const VkDescriptorSetLayoutBinding objects[] = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kPushStages, nullptr},
+                                                    {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kPushStages, nullptr}};
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    set.bindingCount = 1;
-    set.pBindings = &matrices;
+    set.bindingCount = 2;
+    set.pBindings = objects;
     VkResult made = device_.vk().vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_layout_);
     if (made != VK_SUCCESS) return vulkanError("descriptor layout of the renderer", made);
     const VkPushConstantRange push{kPushStages, 0, sizeof(gpu::DrawPush)};

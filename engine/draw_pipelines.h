@@ -21,7 +21,7 @@ public:
 
     VkRenderPass renderPass() const { return render_pass_; }
     VkPipelineLayout layout() const { return layout_; }
-    VkDescriptorSetLayout setLayout() const { return set_layout_; } // binding 0: the matrices
+    VkDescriptorSetLayout setLayout() const { return set_layout_; } // matrices, colors
     VkPipeline background() const { return background_; }
     VkPipeline fragments() const { return fragments_; }
 

@@ -36,11 +36,11 @@ private:
     Result<void> createCommands();
     Result<void> createDescriptors();
     Result<void> check(const DrawScene& scene) const;
-    void bindMatrices(const BufferView& matrices);
+    void bindObjects(const DrawScene& scene);
     void recordScene(const DrawScene& scene, const gpu::DrawPush& push);
     void recordDraws(const DrawScene& scene);
     void recordReadback();
-    gpu::DrawPush pushOf(const Camera& camera, const Look& look) const;
+    gpu::DrawPush pushOf(const Camera& camera, const Look& look, bool own_colors) const;
     Picture picture() const;
 
     Device& device_;
@@ -135,7 +135,7 @@ Result<void> OffscreenRenderer::createCommands() {
 }
 
 Result<void> OffscreenRenderer::createDescriptors() {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
     VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool.maxSets = 1;
     pool.poolSizeCount = 1;
@@ -162,21 +162,22 @@ Result<void> OffscreenRenderer::check(const DrawScene& scene) const {
         return refuse("vertices without vertex usage");
     if ((scene.indices.buffer->usage() & VK_BUFFER_USAGE_INDEX_BUFFER_BIT) == 0) return refuse("indices without index usage");
     if (scene.draw_commands.size < scene.draw_count * kCommandBytes) return refuse("fewer draw commands than draws");
-    if (scene.matrices.size > device_.limits().maxStorageBufferRange) return refuse("more matrices than a binding holds");
+    if (std::max(scene.matrices.size, scene.colors.size) > device_.limits().maxStorageBufferRange)
+        return refuse("more matrices than a binding holds");
     return {};
 }
 
 Result<Picture> OffscreenRenderer::draw(const DrawScene& scene, const Camera& camera, const Look& look,
                                         std::span<const BufferView> released) {
     if (auto fine = check(scene); !fine) return fine.error();
-    if (scene.draw_count > 0) bindMatrices(scene.matrices);
+    if (scene.draw_count > 0) bindObjects(scene);
     vk_.vkResetCommandPool(device_.handle(), pool_, 0);
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     VkResult result = vk_.vkBeginCommandBuffer(commands_, &begin);
     if (result != VK_SUCCESS) return vulkanError("recording a picture", result);
     Commands::acquireFromCompute(device_, commands_, released);
-    recordScene(scene, pushOf(camera, look));
+    recordScene(scene, pushOf(camera, look, scene.colors.buffer != nullptr));
     recordReadback();
     result = vk_.vkEndCommandBuffer(commands_);
     if (result != VK_SUCCESS) return vulkanError("recording a picture", result);
@@ -187,13 +188,16 @@ Result<Picture> OffscreenRenderer::draw(const DrawScene& scene, const Camera& ca
     return picture();
 }
 
-void OffscreenRenderer::bindMatrices(const BufferView& matrices) {
-    const VkDescriptorBufferInfo info{matrices.buffer->handle(), matrices.offset, matrices.size};
+// What is not read still has to be something.
+void OffscreenRenderer::bindObjects(const DrawScene& scene) {
+    const BufferView& colors = scene.colors.buffer != nullptr ? scene.colors : scene.matrices;
+    const VkDescriptorBufferInfo infos[] = {{scene.matrices.buffer->handle(), scene.matrices.offset, scene.matrices.size},
+                                            {colors.buffer->handle(), colors.offset, colors.size}};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set_;
-    write.descriptorCount = 1;
+    write.descriptorCount = 2; // runs on into the next binding
     write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    write.pBufferInfo = &info;
+    write.pBufferInfo = infos;
     vk_.vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
 }
 
@@ -260,13 +264,13 @@ void OffscreenRenderer::recordReadback() {
                              nullptr);
 }
 
-gpu::DrawPush OffscreenRenderer::pushOf(const Camera& camera, const Look& look) const {
+gpu::DrawPush OffscreenRenderer::pushOf(const Camera& camera, const Look& look, bool own_colors) const {
     gpu::DrawPush push{};
     push.view_projection = camera.viewProjection(static_cast<float>(width_) / static_cast<float>(height_));
     push.eye = {camera.eye[0], camera.eye[1], camera.eye[2], look.tint};
     const Vec3 light = keyLight(camera);
     push.key_direction = {light[0], light[1], light[2], look.light};
-    push.outer_color = {look.outer_color[0], look.outer_color[1], look.outer_color[2], 1};
+    push.outer_color = {look.outer_color[0], look.outer_color[1], look.outer_color[2], own_colors ? 1.0f : 0.0f};
     push.inner_color = {look.inner_color[0], look.inner_color[1], look.inner_color[2], 1};
     return push;
 }

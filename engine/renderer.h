@@ -19,6 +19,8 @@ struct DrawScene {
     BufferView draw_commands; // DrawCommand
     BufferView matrices;      // ObjectMatrix, one an object; rigid, or scaled evenly
     uint32_t draw_count = 0;
+    // ObjectColor, one an object; empty: all have those of the look. What fades out has to come after what it may cover.
+    BufferView colors = {};
 };
 
 // Colors are linear.

@@ -39,6 +39,7 @@ const std::vector<Row>& rows() {
          {MEMBER(DrawCommand, index_count), MEMBER(DrawCommand, instance_count), MEMBER(DrawCommand, first_index),
           MEMBER(DrawCommand, vertex_offset), MEMBER(DrawCommand, first_instance)}},
         {"ObjectMatrix", sizeof(gpu::ObjectMatrix), {MEMBER(ObjectMatrix, model)}},
+        {"ObjectColor", sizeof(gpu::ObjectColor), {MEMBER(ObjectColor, outer), MEMBER(ObjectColor, inner)}},
         {"Bounds", sizeof(gpu::Bounds), {MEMBER(Bounds, lower), MEMBER(Bounds, upper)}},
         {"ObjectState",
          sizeof(gpu::ObjectState),

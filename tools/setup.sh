@@ -10,8 +10,11 @@ packages=(
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
   # libraries
   libassimp-dev libcli11-dev libeigen3-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
+  # films; only brittle simulate -o FILE.mp4 and its test ask for it
+  ffmpeg
   # tests, and the peers of the bench
-  libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libcgal-dev libgmp-dev libmpfr-dev voro++-dev
+  libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libbullet-dev libcgal-dev libgmp-dev libmpfr-dev
+  voro++-dev
 )
 
 installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }

@@ -1,5 +1,5 @@
 // Stone outside, fired clay inside, each fragment a shade of its own; a key light, light from the sky and the ground, and a
-// weak light from behind that keeps the dark side readable.
+// weak light from behind that keeps the dark side readable. Objects may have colors of their own, and fade into the background.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/scene.h"
@@ -7,6 +7,7 @@
 layout(location = 0) in vec3 world_position;
 layout(location = 1) in vec3 world_normal;
 layout(location = 2) flat in uint instance;
+layout(set = 0, binding = 1, std430) readonly buffer Colors { ObjectColor colors[]; };
 layout(push_constant) uniform Push { DrawPush push; };
 
 layout(location = 0) out vec4 color;
@@ -17,9 +18,12 @@ float random(uint x) {
     return float((x ^ (x >> 16)) >> 8) / 16777216.0;
 }
 
-vec3 surfaceColor() {
-    vec3 base = instance % 2u == uint(SIDE_INNER) ? push.inner_color.rgb : push.outer_color.rgb;
-    uint object = instance / 2u;
+bool hasOwnColors() { return push.outer_color.w > 0.0; }
+
+vec3 surfaceColor(uint object) {
+    bool inner = instance % 2u == uint(SIDE_INNER);
+    if (hasOwnColors()) return inner ? colors[object].inner.rgb : colors[object].outer.rgb;
+    vec3 base = inner ? push.inner_color.rgb : push.outer_color.rgb;
     float brighter = 2.0 * random(2u * object) - 1.0, warmer = 2.0 * random(2u * object + 1u) - 1.0;
     float tint = push.eye.w;
     return base * (1.0 + tint * brighter) * (vec3(1.0) + 0.5 * tint * warmer * vec3(1.0, 0.0, -1.0));
@@ -39,6 +43,14 @@ void main() {
     vec3 towards_eye = normalize(push.eye.xyz - world_position);
     vec3 halfway = normalize(towards_eye + push.key_direction.xyz);
     float shine = 0.05 * pow(max(dot(n, halfway), 0.0), 24.0);
-    vec3 shown = surfaceColor() * light(n) + shine;
-    color = vec4(shown / (1.0 + 0.12 * shown), 1.0);
+    uint object = instance / 2u;
+    vec3 own = surfaceColor(object), shown = own * light(n) + shine;
+    shown /= 1.0 + 0.12 * shown;
+    float opaque = 1.0;
+    if (hasOwnColors()) {
+        shown = mix(own, shown, colors[object].outer.w);
+        float end = colors[object].inner.w;
+        if (end > 0.0) opaque = 1.0 - smoothstep(0.35 * end, end, distance(push.eye.xyz, world_position));
+    }
+    color = vec4(shown, opaque);
 }

@@ -65,8 +65,8 @@ Seen betterOf(Seen a, Seen b) {
                 is_later ? b.enter_feature : a.enter_feature, min(a.leave, b.leave), kFar);
 }
 
-void writeApart(uint k) {
-    if (lane == 0u) axis_records[k] = AxisRecord(vec4(0.0), vec4(0.0), uvec4(AXIS_APART));
+void writeApart(uint k, float gap) {
+    if (lane == 0u) axis_records[k] = AxisRecord(vec4(vec3(0.0), gap), vec4(0.0), uvec4(AXIS_APART));
 }
 
 // `heights`: as measured along the axis; `faces`: the reference face and the other one.

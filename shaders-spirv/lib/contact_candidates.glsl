@@ -1,6 +1,6 @@
 // Where a face of one hull lies over a face of another: up to four points.
 //
-// Both faces are laid into the plane of the reference face. Each edge of the incident face is cut by all sides of the reference
+// Both faces are seen along the axis, which is the normal of the reference face or near it. Each edge of the incident face is cut by all sides of the reference
 // face at once, which gives the corners of the clipped polygon that lie on it; those of the reference face that lie within the
 // incident one are the others. That is the polygon of Sutherland and Hodgman (1974), found without passing it from side to
 // side, so that every corner is named by the two lines that it lies on: names stay while the same features touch.
@@ -11,27 +11,38 @@
 #define CANDIDATES (2u * FACE_CORNERS)
 
 struct Plane2 {
-    vec3 u, v, n;  // of the reference face, n outward
-    float height;  // of the reference hull along n
+    vec3 u, v, n; // n: the axis, out of the reference hull
+    vec3 height;  // of the reference face along n: how fast it grows along u and v, and where both are 0
 };
 
 Plane2 plane;
 vec2 reference_at[FACE_CORNERS];
-vec3 incident_at[FACE_CORNERS]; // z: above the reference plane
+vec3 incident_at[FACE_CORNERS]; // z: above the reference face
 vec4 candidate_at[CANDIDATES];  // w: name, as bits
 uint reference_count, incident_count, candidate_count;
 float slack; // by which a point may lie beside the reference face
 
-void spanPlane(vec3 n, float height) {
+void spanPlane(vec3 n) {
     vec3 size = abs(n);
     vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0) : size.y <= size.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
     vec3 u = normalize(cross(axis, n));
-    plane = Plane2(u, cross(n, u), n, height);
+    plane = Plane2(u, cross(n, u), n, vec3(0.0));
 }
 
-vec3 inPlane(vec3 p) { return vec3(dot(plane.u, p), dot(plane.v, p), dot(plane.n, p) - plane.height); }
+// A plane through `from`, which faces n squarely enough.
+void tiltPlane(vec3 normal, vec3 from) {
+    vec2 slope = -vec2(dot(normal, plane.u), dot(normal, plane.v)) / dot(normal, plane.n);
+    plane.height = vec3(slope, dot(plane.n, from) - dot(slope, vec2(dot(plane.u, from), dot(plane.v, from))));
+}
 
-vec3 outOfPlane(vec3 p) { return p.x * plane.u + p.y * plane.v + (p.z + plane.height) * plane.n; }
+float heightAt(vec2 at) { return dot(plane.height.xy, at) + plane.height.z; }
+
+vec3 inPlane(vec3 p) {
+    vec2 at = vec2(dot(plane.u, p), dot(plane.v, p));
+    return vec3(at, dot(plane.n, p) - heightAt(at));
+}
+
+vec3 outOfPlane(vec3 p) { return p.x * plane.u + p.y * plane.v + (p.z + heightAt(p.xy)) * plane.n; }
 
 void addCandidate(vec3 at, uint line, uint other) {
     if (candidate_count >= CANDIDATES || at.z > pair.margin) return;
@@ -108,8 +119,8 @@ void addReferenceCorners(vec3 n) {
     if (abs(n.z) < 0.01) return;
     uint before = reference_count - 1u;
     for (uint j = 0u; j < reference_count; j++) {
-        vec2 at = reference_at[j];
-        float height = incident_at[0].z - dot(n.xy, at - incident_at[0].xy) / n.z;
+        vec2 at = reference_at[j], way = at - incident_at[0].xy;
+        float height = incident_at[0].z - dot(n.xy, way) / n.z - dot(plane.height.xy, way);
         uint next = j + 1u == reference_count ? 0u : j + 1u;
         if (outsideIncident(at) < -slack) addCandidate(vec3(at, height), FACE_CORNERS + next, FACE_CORNERS + j);
     }

@@ -1,5 +1,5 @@
-// One contact, solved once: normal impulses of its points; then, where nothing is pushed out, friction for
-// all points together at their center, and against twisting about it.
+// One contact, solved once: normal impulses of its points; then friction for all points together at their center, and against
+// twisting about it.
 //
 // A point that is still apart may close its gap in this substep and no faster. One that overlaps is pushed out as a damped
 // spring would, which takes some of the impulse back as it gives; the solve without push then takes out the speed of that push.
@@ -41,9 +41,9 @@ vec3 demandOf(float separation, vec4 spring) {
     return vec3(bias, pushed ? spring.y : 1.0, pushed ? spring.z : 0.0);
 }
 
-void solvePoint(inout SolverPoint p, float separation, vec3 normal, vec4 spring, inout Touching t) {
+void solvePoint(inout SolverPoint p, float load, float separation, vec3 normal, vec4 spring, inout Touching t) {
     vec3 demand = demandOf(separation, spring);
-    float impulse = -p.arm_b.w * demand.y * (speedAt(p, normal, t) + demand.x) - demand.z * p.pulse.x;
+    float impulse = -p.arm_b.w * demand.y * (speedAt(p, normal, t) + demand.x) - demand.z * max(p.pulse.x - load, 0.0);
     float total = max(p.pulse.x + impulse, 0.0);
     pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - p.pulse.x) * normal);
     p.pulse.x = total;
@@ -59,17 +59,17 @@ void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
 
 // All points at once, if none of them would have to pull.
 void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec4 separation, uint points, vec3 normal, vec4 spring, inout Touching t) {
-    vec4 short_of = vec4(0.0), mass_share = vec4(1.0), impulse_share = vec4(0.0), was = vec4(0.0);
+    vec4 short_of = vec4(0.0), mass_share = vec4(1.0), impulse_share = vec4(0.0), was = vec4(0.0), loads = solver_contacts[c].loads;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         vec3 demand = demandOf(separation[k], spring);
         float lacks = speedAt(p[k], normal, t) + demand.x;
         // A point that is apart and will stay so is no reason to pull.
         short_of[k] = k < points && (lacks < 0.0 || p[k].pulse.x > 0.0) ? lacks : 0.0;
-        was[k] = p[k].pulse.x;
+        was[k] = k < points ? p[k].pulse.x : 0.0; // of points that are none nothing has been written
         mass_share[k] = demand.y;
         impulse_share[k] = demand.z;
     }
-    vec4 total = was - mass_share * (pressOf(c) * short_of) - impulse_share * was;
+    vec4 total = was - mass_share * (pressOf(c) * short_of) - impulse_share * max(was - loads, vec4(0.0));
     // Where a point would have to pull, what the others would be pressed with is too much: that is for the points one by one.
     total = all(greaterThanEqual(total, vec4(0.0))) ? total : was;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
@@ -89,10 +89,11 @@ void pressContact(uint c, vec3 normal, uint points, vec4 spring, inout Touching 
         noteBlow(p[k], normal, t);
     }
     solveTogether(c, p, vec4(separation[0], separation[1], separation[2], separation[3]), points, normal, spring, t);
+    vec4 loads = solver_contacts[c].loads;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
-        if (k < points) solvePoint(p[k], separation[k], normal, spring, t);
+        if (k < points) solvePoint(p[k], loads[k], separation[k], normal, spring, t);
     [[unroll]] for (uint k = MANIFOLD_POINTS; k-- > 0u;)
-        if (k < points) solvePoint(p[k], separation[k], normal, spring, t);
+        if (k < points) solvePoint(p[k], loads[k], separation[k], normal, spring, t);
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
         if (k < points) solver_contacts[c].points[k].pulse = p[k].pulse;
 }
@@ -145,7 +146,7 @@ void solveContact(uint c) {
     Touching t = touchingOf(ids);
     vec4 limits = solver_contacts[c].rub_mass.w != 0.0 ? vec4(stiff.xyz, soft.w) : soft;
     pressContact(c, normal.xyz, ids.z, limits, t);
-    if (with_push == 0u) rubContact(c, normal, ids.z, t);
+    rubContact(c, normal, ids.z, t);
     keepMotion(ids.x, t.a);
     keepMotion(ids.y, t.b);
 }

@@ -1,5 +1,9 @@
-// The points in which a pair touches along its axis, a lane a pair: of two edges the points nearest to each other, of two faces
-// the corners of what lies over each other, four at most.
+// The points in which a pair touches along its axis, a lane a pair: of two faces the corners of what lies over each other, four at
+// most, of two edges the points nearest to each other.
+//
+// Edges of faces that all but lie on each other are both: the best axis changes between them and the faces from step to step, and
+// a body held by four points in one step and by another single one in the next never comes to rest. So where a face of either
+// edge faces the other hull squarely enough, the points are those of the two faces, along the axis of the edges.
 //
 // B is looked at where it is at the time of impact; arms and separations are those of now, so that a pair that will meet in this
 // step has points with the way that is left along the normal as their separation.
@@ -65,38 +69,72 @@ uint loadIncident(bool of_a, uint face) {
     return count;
 }
 
+vec3 normalOf(bool of_a, uint face) {
+    vec3 own = faceOf(of_a, face).plane.xyz;
+    return of_a ? own : pair.axes[1] * own;
+}
+
+// Wants the plane set.
 void gatherCandidates(bool a_leads, uint reference_face, uint incident_face) {
-    spanPlane(a_leads ? found.axis.xyz : -found.axis.xyz, found.shift.w);
     slack = kSlackShare * pair.smaller;
     reference_count = loadReference(a_leads, reference_face);
     incident_count = loadIncident(!a_leads, incident_face);
-    vec3 n = faceOf(!a_leads, incident_face).plane.xyz;
-    n = a_leads ? pair.axes[1] * n : n;
+    vec3 n = normalOf(!a_leads, incident_face);
     candidate_count = 0u;
     addIncidentEdges();
     addReferenceCorners(vec3(dot(plane.u, n), dot(plane.v, n), dot(plane.n, n)));
     if (is_swept || found.axis.w <= 0.0) addLowest(found.axis.w);
 }
 
-void touchFaces() {
-    bool a_leads = found.info.y == 0u;
-    uint reference_face = min(found.info.z, HULL_FACES - 1u), incident_face = min(found.info.w, HULL_FACES - 1u);
-    gatherCandidates(a_leads, reference_face, incident_face);
+void touchChosen(bool a_leads, uint reference_face, uint incident_face) {
     uvec4 picked = chosen();
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         if (picked[k] == NO_INDEX) break;
         vec4 at = candidate_at[picked[k]];
         vec3 incident = outOfPlane(at.xyz), under = outOfPlane(vec3(at.xy, 0.0));
-        uint name = floatBitsToUint(at.w) | incident_face << 14 | reference_face << 20 | found.info.y << 26;
+        uint name = floatBitsToUint(at.w) | incident_face << 14 | reference_face << 20 | (a_leads ? 0u : 1u << 26);
         touches[k] = a_leads ? Touch(under, incident, name) : Touch(incident, under, name);
         touch_count++;
     }
 }
 
+void touchFaces() {
+    bool a_leads = found.info.y == 0u;
+    uint reference_face = min(found.info.z, HULL_FACES - 1u), incident_face = min(found.info.w, HULL_FACES - 1u);
+    spanPlane(a_leads ? found.axis.xyz : -found.axis.xyz);
+    plane.height.z = found.shift.w;
+    gatherCandidates(a_leads, reference_face, incident_face);
+    touchChosen(a_leads, reference_face, incident_face);
+}
+
+const float kSquareEnough = 0.9; // cosine
+
+// Of the two faces of an edge the one that faces the other hull more squarely; y: how squarely, as bits.
+uvec2 squarerFace(bool of_a, uvec4 edge) {
+    vec3 towards = of_a ? found.axis.xyz : -found.axis.xyz;
+    float left = dot(normalOf(of_a, edge.z), towards), right = dot(normalOf(of_a, edge.w), towards);
+    return left >= right ? uvec2(edge.z, floatBitsToUint(left)) : uvec2(edge.w, floatBitsToUint(right));
+}
+
+// Whether the faces of the two edges give the points.
+bool touchAlongEdges(uvec4 a, uvec4 b) {
+    uvec2 of_a = squarerFace(true, a), of_b = squarerFace(false, b);
+    float square_a = uintBitsToFloat(of_a.y), square_b = uintBitsToFloat(of_b.y);
+    if (max(square_a, square_b) < kSquareEnough || min(square_a, square_b) <= 0.0) return false;
+    bool a_leads = square_a >= square_b;
+    uint reference_face = a_leads ? of_a.x : of_b.x, incident_face = a_leads ? of_b.x : of_a.x;
+    spanPlane(a_leads ? found.axis.xyz : -found.axis.xyz);
+    tiltPlane(normalOf(a_leads, reference_face), shiftedCorner(a_leads, a_leads ? a.x : b.x));
+    gatherCandidates(a_leads, reference_face, incident_face);
+    touchChosen(a_leads, reference_face, incident_face);
+    return touch_count > 0u;
+}
+
 // Hulls that are apart further than the margin at the ends of these edges do not touch.
 void touchEdges() {
-    uvec2 a = hull_edges[pair.hull[0].first.w + ((found.info.x >> 8) & 0xffu)].xy;
-    uvec2 b = hull_edges[pair.hull[1].first.w + (found.info.x & 0xffu)].xy;
+    uvec4 a = hull_edges[pair.hull[0].first.w + ((found.info.x >> 8) & 0xffu)];
+    uvec4 b = hull_edges[pair.hull[1].first.w + (found.info.x & 0xffu)];
+    if (touchAlongEdges(a, b)) return;
     vec3 p = shiftedCorner(true, a.x), q = shiftedCorner(false, b.x);
     vec3 d = shiftedCorner(true, a.y) - p, e = shiftedCorner(false, b.y) - q, w = p - q;
     float dd = dot(d, d), de = dot(d, e), ee = dot(e, e), dw = dot(d, w), ew = dot(e, w);
@@ -118,7 +156,7 @@ ContactPoint pointOf(Touch touch) {
 void writeManifold(uint k) {
     bool touching = touch_count > 0u;
     manifolds[k].pair = pair.ids;
-    manifolds[k].normal = touching ? vec4(turned(pair.turn, found.axis.xyz), 0.0) : vec4(0.0);
+    manifolds[k].normal = touching ? vec4(turned(pair.turn, found.axis.xyz), 0.0) : vec4(vec3(0.0), max(found.axis.w, 0.0));
     manifolds[k].info = uvec4(touch_count, touching ? found.info.x : 0u, 0u, 0u);
     for (uint p = 0u; p < MANIFOLD_POINTS; p++) {
         bool there = p < touch_count;

@@ -92,7 +92,7 @@ void main() {
     loadHulls(k);
     Seen seen = searchAll();
     if (isApart(seen)) {
-        writeApart(k);
+        writeApart(k, seen.separation);
         return;
     }
     writeFound(k, seen);

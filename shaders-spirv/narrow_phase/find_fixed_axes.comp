@@ -43,7 +43,7 @@ void main() {
     loadHulls(k);
     Seen seen = seeFixedAxes(min(push.fixed_axes, uint(SUPPORT_DIRECTIONS)));
     if (isApart(seen)) {
-        writeApart(k);
+        writeApart(k, seen.separation);
         return;
     }
     writeFound(k, seen);

@@ -9,11 +9,13 @@ GPU_NAMESPACE_BEGIN
 
 #define SECTOR_EDGE 16 /* m */
 
+#define BODY_ASLEEP 1 /* among the flags: it was not solved in the last step */
+
 struct BodyState {
     ivec4 sector;  // w: BODY_* flags
     vec4 offset;   // of the center of mass, in [-8, 8) from the sector's middle; w: inverse mass, 0 for what does not move
     vec4 turn;     // unit quaternion x, y, z, w: own frame to world
-    vec4 velocity; // of the center of mass
+    vec4 velocity; // of the center of mass; w: for how long the body has hardly moved, s
     vec4 spin;     // angular velocity, world axes
     vec4 momentum; // angular, world axes: the state; spin follows from it
 };

@@ -17,7 +17,7 @@ struct ContactPoint {
 
 struct Manifold {
     uvec4 pair;  // piece a < piece b, body a, body b
-    vec4 normal; // world, unit, from A to B; w: 0
+    vec4 normal; // world, unit, from A to B; w: of a pair without points, a length that the hulls are apart for certain, or 0
     uvec4 info;  // points, feature of the separating axis, 0, 0
     ContactPoint points[MANIFOLD_POINTS];
 };

@@ -29,6 +29,12 @@ struct ObjectMatrix {
     mat4 model;
 };
 
+// Linear. What has none of its own has those of DrawPush.
+struct ObjectColor {
+    vec4 outer; // w: how much of it is light and shade, 0 for a color that is seen as it is
+    vec4 inner; // w: how far from the eye it has faded out, 0 for what does not fade
+};
+
 struct Bounds {
     float lower[3];
     float upper[3];
@@ -53,7 +59,7 @@ struct DrawPush {
     mat4 view_projection;
     vec4 eye;           // w: tint, how far the colors of the fragments differ
     vec4 key_direction; // towards the light; w: its strength
-    vec4 outer_color;   // linear
+    vec4 outer_color;   // linear; w: 1 where every object has colors of its own
     vec4 inner_color;   // linear
 };
 

@@ -4,9 +4,15 @@
 // each, forces change velocities, the impulses of the last substep are applied again, contacts are solved with a soft push out
 // of what overlaps, bodies move, and contacts are solved once more without the push, so that it leaves no energy behind.
 // Contacts that share a moving body have different colors; those of one color are solved side by side.
+//
+// A soft contact gives way under a load as a spring does, which is what keeps piles calm: a hundred times the weight of a cube of
+// a meter pushes it in by 28 mm. So each point follows, slowly, what it carries, and only what exceeds most of that (LOAD_CARRIED)
+// makes it give way. Not all of it, or what bodies that are wedged press each other with would never die away; not at once
+// (LOAD_FOLLOWED), or stacks would shake themselves down.
 #ifndef SOLVER_H
 #define SOLVER_H
 
+#include "broad_phase.h"
 #include "contact.h"
 #include "gpu_types.h"
 
@@ -16,6 +22,17 @@ GPU_NAMESPACE_BEGIN
 #define COUNT_CONTACTS 8      /* pairs with contact points */
 #define COUNT_FRESH_PAIRS 12  /* whose points are to be found anew */
 #define COUNT_FIRST_COLOR 16  /* then one for each of the wide colors */
+#define COUNT_BODIES 24       /* of the world; none while all sleep */
+#define COUNT_ONCE 25         /* 1; 0 while all sleep */
+#define COUNT_AWAKE 26        /* bodies that move and do not sleep */
+
+// A bit of STATUS_FAILED: islands could not be joined.
+#define FAILED_ISLANDS 16u
+
+// What the world counts beyond a step.
+#define STEPS_MADE 0
+#define STEPS_ASLEEP 1 /* in a row, in which nothing was awake, up to IDLE_STEPS */
+#define IDLE_STEPS 2
 
 // The first colors hold most contacts and are dispatched each; the others are walked through by one workgroup. What has no
 // color at all goes one by one in the end.
@@ -24,6 +41,9 @@ GPU_NAMESPACE_BEGIN
 #define NO_COLOR COLORS /* in order behind all others */
 // With no more contacts than this one workgroup walks through all colors: its barriers cost less than dispatches.
 #define FEW_CONTACTS 1024
+
+#define LOAD_CARRIED 0.75
+#define LOAD_FOLLOWED 0.03 /* of the difference, a step */
 
 // A body while it is solved. `moved` and `turned` count from the beginning of the step.
 struct SolverBody {
@@ -48,6 +68,7 @@ struct SolverContact {
     vec4 center_a;  // mean of the arms; w: effective mass against twisting
     vec4 center_b;  // w: mean distance of the points from their center
     vec4 rub;       // impulses along the tangent, across it, of twisting; w: unused
+    vec4 loads;     // of the points: what of their impulse does not make them give way
     vec4 rub_mass;  // effective mass in the tangent plane: 11, 12, 22; w: 1 where a body does not move
     vec4 press[MANIFOLD_POINTS]; // effective mass of all points together along the normal: a symmetric matrix
     SolverPoint points[MANIFOLD_POINTS];
@@ -61,11 +82,11 @@ struct ContactMemory {
     vec4 rub;      // as in SolverContact; w: 1 where the arms are kept, 0 where they are new
     vec4 turn_a;   // of the bodies when the points were found
     vec4 turn_b;
-    vec4 place;    // of B's center of mass then, from A's, own axes of A; w: 0
+    vec4 place;    // of B's center of mass then, from A's, own axes of A; w: of a pair without points, how far the hulls were apart at the least
     vec4 anchor_a[MANIFOLD_POINTS]; // own axes of A; w: impulse
     vec4 anchor_b[MANIFOLD_POINTS]; // own axes of B; w: feature, as bits
     vec4 arm_a[MANIFOLD_POINTS];    // world axes, when the points were found
-    vec4 arm_b[MANIFOLD_POINTS];
+    vec4 arm_b[MANIFOLD_POINTS];    // w: what the point has carried of late, an impulse a substep
 };
 
 struct SolverPush {
@@ -74,14 +95,13 @@ struct SolverPush {
     vec4 stiff;       // the same where one does not move; w: least speed that bounces, m/s
     uint color;       // the color, or the first of the rest
     uint with_push;   // 1 while overlap is pushed out
-    uint bodies;
-    uint pad;
+    uint pad[2];
 };
 
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 368);
+static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 384);
 static_assert(sizeof(gpu::ContactMemory) == 368 && sizeof(gpu::SolverPush) == 64);
 #endif
 #endif

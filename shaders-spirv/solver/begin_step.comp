@@ -6,15 +6,15 @@
 #include "shared/solver.h"
 
 FLAT_KERNEL;
-READS(0, BodyState, bodies);
-READS(1, BodyShape, shapes);
-WRITES(2, SolverBody, solver_bodies);
-WRITES(3, vec4, spins); // that the momentum was last brought up to
-layout(push_constant) uniform Push { uint body_count; };
+READS(0, uint, counts);
+READS(1, BodyState, bodies);
+READS(2, BodyShape, shapes);
+WRITES(3, SolverBody, solver_bodies);
+WRITES(4, vec4, spins); // that the momentum was last brought up to
 
 void main() {
     uint b = flatIndex();
-    if (b >= body_count) return;
+    if (b >= counts[COUNT_BODIES]) return;
     BodyState state = bodies[b];
     mat3 inverse = worldInertia(ownInverseInertia(shapes[b]), state.turn);
     solver_bodies[b] = SolverBody(vec4(state.velocity.xyz, state.offset.w), vec4(state.spin.xyz, inverse[2][2]),

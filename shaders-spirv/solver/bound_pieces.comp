@@ -9,23 +9,23 @@
 #include "shared/broad_phase.h"
 
 FLAT_KERNEL;
-READS(0, PieceRecord, pieces);
-READS(1, BodyState, bodies);
-READS(2, HullRecord, hulls);
-READS(3, vec4, hull_vertices);
-WRITES(4, vec4, box_low);
-WRITES(5, vec4, box_high);
+READS(0, uint, counts);
+READS(1, PieceRecord, pieces);
+READS(2, BodyState, bodies);
+READS(3, HullRecord, hulls);
+READS(4, vec4, hull_vertices);
+WRITES(5, vec4, box_low);
+WRITES(6, vec4, box_high);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of the step
     float margin;
-    uint piece_count;
 };
 
 const float kRounding = 1.0 / 4194304.0;
 
 void main() {
     uint p = flatIndex();
-    if (p >= piece_count) return;
+    if (p >= counts[COUNT_BOXES]) return;
     uvec4 ids = pieces[p].ids;
     BodyState body = bodies[ids.y];
     bool moves = body.offset.w != 0.0;

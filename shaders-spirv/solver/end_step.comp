@@ -11,9 +11,7 @@ UPDATES(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
 READS(3, SolverBody, solver_bodies);
 READS(4, vec4, spins);
-UPDATES(5, uint, steps); // one word
-layout(push_constant) uniform Push { uint body_count; };
-
+UPDATES(5, uint, steps);
 #include "lib/take_up_spin.glsl"
 
 // Whole sectors go over from the offset, which stays in [-SECTOR_EDGE / 2, SECTOR_EDGE / 2).
@@ -26,14 +24,14 @@ void moveTo(uint b, vec3 offset) {
 
 void main() {
     uint b = flatIndex();
-    if (b >= body_count || counts[STATUS_FAILED] != 0u) return;
-    if (b == 0u) steps[0]++;
-    if (bodies[b].offset.w == 0.0) return;
+    if (b >= counts[COUNT_BODIES] || counts[STATUS_FAILED] != 0u) return;
+    if (b == 0u) steps[STEPS_MADE]++;
     SolverBody s = solver_bodies[b];
+    if (s.velocity.w == 0.0) return;
     vec4 turn = normalize(turnAfter(s.turned, bodies[b].turn));
     takeUpSpin(b, ownInverseInertia(shapes[b]), turn, s.spin.xyz);
     moveTo(b, bodies[b].offset.xyz + s.moved.xyz);
     bodies[b].turn = turn;
-    bodies[b].velocity = vec4(s.velocity.xyz, 0.0);
-    bodies[b].spin = vec4(s.spin.xyz, 0.0);
+    bodies[b].velocity.xyz = s.velocity.xyz;
+    bodies[b].spin.xyz = s.spin.xyz;
 }

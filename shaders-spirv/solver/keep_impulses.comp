@@ -17,6 +17,9 @@ void main() {
     memory[ids.w].rub.xyz = isBlow(c, ids.z) ? vec3(0.0) : solver_contacts[c].rub.xyz;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         vec4 pulse = solver_contacts[c].points[k].pulse;
-        memory[ids.w].anchor_a[k].w = pulse.w != 0.0 ? 0.0 : pulse.x;
+        bool blow = pulse.w != 0.0;
+        float carried = min(memory[ids.w].arm_b[k].w, pulse.x);
+        memory[ids.w].anchor_a[k].w = blow ? 0.0 : pulse.x;
+        memory[ids.w].arm_b[k].w = blow ? 0.0 : mix(carried, pulse.x, float(LOAD_FOLLOWED));
     }
 }

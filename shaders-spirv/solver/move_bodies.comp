@@ -17,8 +17,9 @@ layout(push_constant) uniform Push { SolverPush push; };
 
 void main() {
     uint b = flatIndex();
-    if (b >= push.bodies || counts[STATUS_FAILED] != 0u || bodies[b].offset.w == 0.0) return;
+    if (b >= counts[COUNT_BODIES] || counts[STATUS_FAILED] != 0u) return;
     SolverBody s = solver_bodies[b];
+    if (s.velocity.w == 0.0) return;
     vec4 from = bodies[b].turn, turn = turnAfter(s.turned, from);
     mat3 own = ownInverseInertia(shapes[b]);
     vec3 momentum = takeUpSpin(b, own, turn, s.spin.xyz);

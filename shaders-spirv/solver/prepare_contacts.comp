@@ -2,6 +2,7 @@
 // that restitution goes by.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
 #include "lib/solver_body.glsl"
 #include "shared/body.h"
@@ -17,6 +18,7 @@ WRITES(6, SolverContact, solver_contacts);
 layout(push_constant) uniform Push { SolverPush push_; };
 #include "lib/approach.glsl"
 #include "lib/body_way.glsl"
+#include "lib/symmetric_inverse.glsl"
 
 struct Pair {
     Moving a, b;
@@ -70,7 +72,7 @@ mat4 pressMass(uint pair, uint points, Pair p, vec3 normal) {
     yields *= float(points) / trace;
     for (uint i = 0u; i < MANIFOLD_POINTS; i++)
         for (uint j = 0u; j < MANIFOLD_POINTS; j++) yields[i][j] = i < points && j < points ? yields[i][j] : 0.0;
-    return float(points) / trace * (yields * inverse(yields * yields + mat4(kDoubt * kDoubt)));
+    return float(points) / trace * (yields * symmetricInverse(yields * yields + mat4(kDoubt * kDoubt)));
 }
 
 void main() {
@@ -102,5 +104,8 @@ void main() {
     mat4 press = pressMass(pair, points, p, normal.xyz);
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
     solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
+    vec4 loads = vec4(0.0);
+    for (uint k = 0u; k < points; k++) loads[k] = float(LOAD_CARRIED) * memory[pair].arm_b[k].w;
+    solver_contacts[c].loads = loads;
     solver_contacts[c].rub_mass = vec4(rubMass(p, center_a, center_b, tangent.xyz, cross(normal.xyz, tangent.xyz)), fixed_ ? 1.0 : 0.0);
 }

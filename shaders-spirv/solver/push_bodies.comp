@@ -33,7 +33,7 @@ vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
 
 void main() {
     uint b = flatIndex();
-    if (b >= push_.bodies || counts[STATUS_FAILED] != 0u) return;
+    if (b >= counts[COUNT_BODIES] || counts[STATUS_FAILED] != 0u) return;
     Moving m = movingOf(solver_bodies[b]);
     if (m.inverse_mass == 0.0) return;
     vec3 impulse = vec3(0.0), twist = vec3(0.0);

@@ -1,6 +1,10 @@
 // Which pair of the last step each pair is, and whether its contact still serves: as long as the two bodies have hardly moved
 // against each other since its points were found, they are kept, with the arms that they had then, world axes (contact
-// recycling, as Box3D does it). Stacks stand by it: points found anew in each step wander, and a tower walks off.
+// recycling, as Box3D does it). Stacks stand by it: points found anew in each step wander, and a tower walks off. Between two
+// bodies that have slept nothing has changed at all.
+//
+// Pairs that do not touch, most of those whose boxes meet, are not looked at again before they can have come near: the gap that was
+// found, less what they have moved against each other since and may move in this step, is more than what points are looked for in.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -19,12 +23,17 @@ READS(5, BodyState, bodies);
 READS(6, BodyShape, shapes);
 WRITES(7, uint, recalled); // where the pair was, or NO_INDEX
 WRITES(8, uint, fresh);    // 1 where points are to be found
-layout(push_constant) uniform Push { uint recycling; };
+layout(push_constant) uniform Push {
+    vec4 gravity; // w: for how long pairs are swept, s
+    float speculative;
+    uint recycling;
+};
 #include "lib/body_way.glsl"
 
 const float kLeastCosine = 0.99240388; // squared, of half the angle: 10 degrees
 const float kFurthest = 0.05;          // m
-const float kFurthestShare = 0.05;     // of the smaller body
+const float kFurthestShare = 0.03;     // of the smaller body
+const float kLessRounding = 0.9999;
 
 bool before(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
@@ -44,24 +53,45 @@ float agreement(vec4 p, vec4 q) {
     return cosine * cosine;
 }
 
-bool serves(uint old) {
-    uvec4 ids = old_memory[old].ids;
-    if (ids.z == 0u) return false;
-    vec4 turn_a = bodies[ids.x].turn, turn_b = bodies[ids.y].turn, then_a = old_memory[old].turn_a, then_b = old_memory[old].turn_b;
-    float radius_a = shapes[ids.x].inverse_inertia[2].w, radius_b = shapes[ids.y].inverse_inertia[2].w;
-    vec3 place = turned(turnBack(turn_a), wayBetween(ids.x, ids.y));
+float radiusOf(uint body) { return shapes[body].inverse_inertia[2].w; }
+
+// How far any point of the smaller body has moved, as the larger one sees it, at most, since the pair was looked at. The other way
+// around a cube that turns a little would seem to move the far end of the ground by meters.
+float movedSince(uint old, uint a, uint b) {
+    vec4 then_a = old_memory[old].turn_a, then_b = old_memory[old].turn_b, turn_a = bodies[a].turn, turn_b = bodies[b].turn;
+    bool of_a = radiusOf(a) >= radiusOf(b);
+    vec3 way = wayBetween(a, b), place = old_memory[old].place.xyz;
+    vec3 then = of_a ? place : turned(turnBack(then_b), turned(then_a, place));
     vec4 apart = turnAfter(turnBack(turnAfter(turnBack(then_a), then_b)), turnAfter(turnBack(turn_a), turn_b));
-    float smaller = min(radius_a, radius_b);
-    float moved = length(place - old_memory[old].place.xyz) + 2.0 * length(apart.xyz) * max(radius_a, radius_b);
-    return min(agreement(turn_a, then_a), agreement(turn_b, then_b)) > kLeastCosine &&
-           moved < min(kFurthest, kFurthestShare * smaller);
+    return length(turned(turnBack(of_a ? turn_a : turn_b), way) - then) + 2.0 * length(apart.xyz) * min(radiusOf(a), radiusOf(b));
+}
+
+bool serves(uint old, uint a, uint b) {
+    float least = min(agreement(bodies[a].turn, old_memory[old].turn_a), agreement(bodies[b].turn, old_memory[old].turn_b));
+    return least > kLeastCosine && movedSince(old, a, b) < min(kFurthest, kFurthestShare * min(radiusOf(a), radiusOf(b)));
+}
+
+float movesBy(uint body) { return bodies[body].offset.w == 0.0 ? 0.0 : 1.0; }
+
+bool staysApart(uint old, uint a, uint b) {
+    vec3 falling = gravity.w * gravity.xyz * (movesBy(b) - movesBy(a));
+    float way = gravity.w * length(bodies[b].velocity.xyz - bodies[a].velocity.xyz + falling);
+    return old_memory[old].place.w * kLessRounding > movedSince(old, a, b) + way + speculative;
+}
+
+bool isStill(uint body) { return bodies[body].offset.w == 0.0 || (bodies[body].sector.w & BODY_ASLEEP) != 0; }
+
+// Whether what is known of the pair still holds.
+bool holds(uint old) {
+    uvec4 ids = old_memory[old].ids;
+    if (isStill(ids.x) && isStill(ids.y)) return true;
+    return ids.z == 0u ? staysApart(old, ids.x, ids.y) : recycling != 0u && serves(old, ids.x, ids.y);
 }
 
 void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_BOX_PAIRS]) return;
     uint old = findOld(pairs[p]);
-    bool kept = recycling != 0u && old != NO_INDEX && serves(old);
     recalled[p] = old;
-    fresh[p] = kept ? 0u : 1u;
+    fresh[p] = old != NO_INDEX && holds(old) ? 0u : 1u;
 }

@@ -28,11 +28,14 @@ vec3 anyTangent(vec3 normal) {
     return normalize(cross(normal, axis));
 }
 
-float impulseOf(uint old, uint feature) {
-    float found = 0.0;
+// What the point that was the same features was pressed with, and what it had carried.
+vec2 impulsesOf(uint old, uint feature) {
+    vec2 found = vec2(0.0);
     uint points = old == NO_INDEX ? 0u : old_memory[old].ids.z;
-    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++)
-        found = floatBitsToUint(old_memory[old].anchor_b[k].w) == feature ? old_memory[old].anchor_a[k].w : found;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) {
+        bool same = floatBitsToUint(old_memory[old].anchor_b[k].w) == feature;
+        found = same ? vec2(old_memory[old].anchor_a[k].w, old_memory[old].arm_b[k].w) : found;
+    }
     return found;
 }
 
@@ -45,7 +48,9 @@ vec3 rubOf(uint old, vec3 normal, vec3 tangent) {
 
 void remember(uint p, uint slot, uint old) {
     Manifold m = manifolds[slot];
-    uint a = m.pair.z, b = m.pair.w, color = old == NO_INDEX ? NO_INDEX : old_memory[old].ids.w;
+    uint a = m.pair.z, b = m.pair.w;
+    // A pair that does not touch gives its color back: others may take it by the time they touch again.
+    uint color = old == NO_INDEX || m.info.x == 0u ? NO_INDEX : old_memory[old].ids.w;
     vec4 turn_a = bodies[a].turn, turn_b = bodies[b].turn;
     vec3 tangent = anyTangent(m.normal.xyz);
     vec4 surface_a = vec4(shapes[a].inverse_inertia[0].w, shapes[a].inverse_inertia[1].w, 0.0, 0.0);
@@ -56,13 +61,14 @@ void remember(uint p, uint slot, uint old) {
     memory[p].rub = vec4(old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent), 0.0);
     memory[p].turn_a = turn_a;
     memory[p].turn_b = turn_b;
-    memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), 0.0);
+    memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), m.info.x == 0u ? m.normal.w : 0.0);
     for (uint k = 0u; k < MANIFOLD_POINTS && k < m.info.x; k++) {
         uint feature = m.points[k].id.x;
-        memory[p].anchor_a[k] = vec4(turned(turnBack(turn_a), m.points[k].arm_a.xyz), impulseOf(old, feature));
+        vec2 impulses = impulsesOf(old, feature);
+        memory[p].anchor_a[k] = vec4(turned(turnBack(turn_a), m.points[k].arm_a.xyz), impulses.x);
         memory[p].anchor_b[k] = vec4(turned(turnBack(turn_b), m.points[k].arm_b.xyz), uintBitsToFloat(feature));
         memory[p].arm_a[k] = m.points[k].arm_a;
-        memory[p].arm_b[k] = m.points[k].arm_b;
+        memory[p].arm_b[k] = vec4(m.points[k].arm_b.xyz, impulses.y);
     }
 }
 

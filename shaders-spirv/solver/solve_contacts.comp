@@ -15,8 +15,7 @@ layout(push_constant) uniform Push {
     vec4 stiff;
     uint color;
     uint with_push;
-    uint bodies;
-    uint pad;
+    uint pad[2];
 };
 #include "lib/solve_contact.glsl"
 

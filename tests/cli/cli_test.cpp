@@ -1,5 +1,6 @@
 // The program as its users meet it: exit codes, one-line errors, no output where something is wrong, the same bytes twice.
 #include "tests/reference/glb_file.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/shared_meshes.h"
 
@@ -15,32 +16,20 @@ using support::fileBytes;
 using support::Outcome;
 using support::runProgram;
 
-class Cli : public testing::Test {
+class Cli : public support::FolderTest {
 protected:
-    void SetUp() override {
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
     // One line on stderr, the expected exit code, and nothing left behind.
     void expectRefused(std::vector<std::string> arguments, int exit_code) {
-        const std::filesystem::path output = folder_ / "refused.glb";
+        const std::filesystem::path output = folder() / "refused.glb";
         arguments.insert(arguments.end(), {"-o", output.string()});
         const Outcome run = runProgram("brittle", arguments);
         EXPECT_EQ(run.exit_code, exit_code) << run.err;
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
         EXPECT_FALSE(std::filesystem::exists(output));
         EXPECT_TRUE(run.out.empty()) << run.out;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        for (const auto& entry : std::filesystem::directory_iterator(folder()))
             EXPECT_EQ(entry.path().filename().string().find("refused"), std::string::npos) << entry.path();
     }
-
-private:
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("brittle_cli_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 class LongCli : public Cli {};

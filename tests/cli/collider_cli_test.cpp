@@ -1,4 +1,5 @@
 // Colliders as users of the program meet them: only where asked for, reported, in the file, drawn.
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -12,12 +13,8 @@ namespace {
 using support::fileBytes;
 using support::runProgram;
 
-class ColliderCli : public testing::Test {
+class ColliderCli : public support::FolderTest {
 protected:
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
     support::Outcome shatter(const std::string& output, std::vector<std::string> more,
                              const std::vector<std::string>& environment = {}) {
         std::vector<std::string> arguments = {"shatter", "builtin:ring", "-o", path(output), "--sites", "30", "--json"};
@@ -32,11 +29,6 @@ protected:
         std::copy_n(bytes.data() + 12, 4, reinterpret_cast<char*>(&length));
         return nlohmann::json::parse(bytes.substr(20, length));
     }
-
-private:
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("brittle_collider_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 TEST_F(ColliderCli, ReportsWhatItMade) {

@@ -1,4 +1,5 @@
 // brittle scenes as its users meet it: the list, a scene as a file and back, a bad file refused in one line.
+#include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -14,25 +15,14 @@ using support::fileBytes;
 using support::Outcome;
 using support::runProgram;
 
-class ScenesCli : public testing::Test {
+class ScenesCli : public support::FolderTest {
 protected:
-    void SetUp() override {
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
     static void expectOneLine(const Outcome& run, const std::string& holds) {
         EXPECT_EQ(run.exit_code, 2);
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
         EXPECT_NE(run.err.find(holds), std::string::npos) << run.err;
         EXPECT_TRUE(run.out.empty()) << run.out;
     }
-
-private:
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("brittle_scenes_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 TEST_F(ScenesCli, ListsWhatThereIsWithCounts) {

@@ -147,6 +147,22 @@ TEST(Renderer, NearerHidesFarther) {
     }
 }
 
+// The left cube is green and keeps its color whatever the light; the right one is blue and has faded out at that distance.
+TEST(Renderer, ObjectsHaveColorsOfTheirOwn) {
+    SKIP_WITHOUT_GRAPHICS;
+    TwoCubes cubes;
+    DrawScene scene = cubes.scene();
+    const Buffer colors =
+        upload(device(), asWords<gpu::ObjectColor>({{{0, 1, 0, 0}, {0, 1, 0, 0}}, {{0, 0, 1, 1}, {0, 0, 1, 0.5f}}}));
+    scene.colors = colors;
+    const auto renderer = makeRenderer();
+    const auto picture = renderer->draw(scene, frontCamera(), {}, cubes.released());
+    const auto background = renderer->draw({}, frontCamera());
+    ASSERT_TRUE(picture && background);
+    EXPECT_EQ(picture->at(kWidth / 4, kHeight / 2), (std::array<uint8_t, 4>{0, 255, 0, 255}));
+    EXPECT_EQ(picture->at(3 * kWidth / 4, kHeight / 2), background->at(3 * kWidth / 4, kHeight / 2));
+}
+
 TEST(Renderer, SupersamplingSmoothsEdges) {
     SKIP_WITHOUT_GRAPHICS;
     TwoCubes cubes;

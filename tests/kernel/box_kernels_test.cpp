@@ -227,7 +227,9 @@ TEST(SmallPairBoxes, SaysWhereALaneRanOutOfTurns) {
             commands.dispatch(kernel("pair_boxes"), kBoxes, push, {counts.words, nodes, in.high, pair_counts, found});
         });
         EXPECT_EQ(counts[STATUS_FAILED], turns == 500 ? 0u : FAILED_PAIRING) << turns;
-        if (turns == 500) EXPECT_EQ(counts[COUNT_FOUND_PAIRS], kPairs);
+        if (turns == 500) {
+            EXPECT_EQ(counts[COUNT_FOUND_PAIRS], kPairs);
+        }
     }
 }
 

@@ -66,7 +66,7 @@ void expectAgreement(uint32_t count, uint32_t seed) {
 
 TEST(NarrowPhaseOracle, OverlapsAsDeepAsBruteForceSays) { expectAgreement(1500, 1); }
 
-TEST(LongNarrowPhase, OverlapsAsDeepAsBruteForceSaysAHundredThousandTimes) {
+TEST(LongHardScenes, hard_27_sat_oracle) {
     for (uint32_t seed = 0; seed < 10; ++seed)
         expectAgreement(10000, 100 + seed);
 }

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 namespace {
 
@@ -79,6 +82,12 @@ TEST(World, AStackOfTenCubesStands) {
     EXPECT_LE(std::hypot(placeOf(top)[0], placeOf(top)[2]), 1e-3);
 }
 
+brittle::WorldCounts countsOf(World& world) {
+    const auto counts = world.counts();
+    EXPECT_TRUE(counts);
+    return counts ? *counts : brittle::WorldCounts();
+}
+
 brittle::WorldContents heap() {
     const auto scene = brittle::makeBuiltinScene("hull_pile_100");
     EXPECT_TRUE(scene);
@@ -111,6 +120,135 @@ TEST(World, IsTheSameBitForBitOverRunsAndWorkgroups) {
     }
 }
 
+// A heap of boxes of all shapes, added in a given order.
+std::unique_ptr<World> heapOf(const std::vector<uint32_t>& order) {
+    std::vector<BodyDefinition> bodies;
+    for (const uint32_t k : order) {
+        const double edge = 0.3 + 0.02 * (k % 9);
+        BodyDefinition body = support::box({edge, 0.4, 0.5}, {0.3 * (k % 3), 0.4 + 0.55 * (k / 3), 0.25 * (k % 2)});
+        body.id = 7 * k + 3;
+        bodies.push_back(body);
+    }
+    bodies.insert(bodies.begin() + 5, support::ground());
+    return worldOf(bodies);
+}
+
+TEST(World, IsTheSameBitForBitInWhateverOrderBodiesAreAdded) {
+    std::vector<uint32_t> order(30);
+    std::iota(order.begin(), order.end(), 0);
+    const auto first = heapOf(order);
+    run(*first, 90);
+    std::ranges::reverse(order);
+    std::ranges::rotate(order, order.begin() + 11);
+    const auto other = heapOf(order);
+    run(*other, 90);
+    EXPECT_EQ(hashOf(*other), hashOf(*first));
+    const auto bodies = bodiesOf(*first), shuffled = bodiesOf(*other);
+    for (size_t k = 0; k < order.size(); ++k)
+        EXPECT_EQ(placeOf(shuffled[k < 5 ? k : k + 1])[1], placeOf(bodies[order[k] < 5 ? order[k] : order[k] + 1])[1]) << k;
+}
+
+// Cells of a block touch where it was cut: the first step takes that from the fracture, and has only pairs to look at that meet
+// in less than a face, or in cells of several fragments.
+TEST(World, TakesTheContactsOfFreshSiblingsFromTheFracture) {
+    const auto scene = brittle::makeBuiltinScene("hard_01_block_100");
+    ASSERT_TRUE(scene);
+    auto fracture = brittle::Fracture::create(engine_test::device());
+    ASSERT_TRUE(fracture);
+    auto contents = brittle::contentsOf(*scene, ".", fracture->get());
+    ASSERT_TRUE(contents) << contents.error().message;
+    const auto siblings = static_cast<uint32_t>(contents->siblings.size());
+    ASSERT_GT(siblings, 500u);
+    const auto known = worldOf(*contents);
+    run(*known, 1);
+    const brittle::WorldCounts with = countsOf(*known);
+    contents->siblings.clear();
+    const auto found = worldOf(*contents);
+    run(*found, 1);
+    const brittle::WorldCounts without = countsOf(*found);
+    EXPECT_EQ(without.fresh, without.pairs);
+    EXPECT_EQ(with.pairs, without.pairs);
+    EXPECT_EQ(with.fresh + siblings, without.fresh);
+    EXPECT_GE(with.contacts, siblings);
+}
+
+// So many contacts that each color is dispatched on its own.
+TEST(World, IsTheSameBitForBitOverRunsOfManyContacts) {
+    const auto scene = brittle::makeBuiltinScene("hull_pile_1000");
+    ASSERT_TRUE(scene);
+    const auto contents = brittle::contentsOf(*scene, ".", nullptr);
+    ASSERT_TRUE(contents) << contents.error().message;
+    const auto first = worldOf(*contents), second = worldOf(*contents, 128);
+    for (const auto& world : {first.get(), second.get()})
+        run(*world, 110);
+    EXPECT_GT(countsOf(*first).contacts, 1024u);
+    EXPECT_EQ(hashOf(*first), hashOf(*second));
+}
+
+// A stack on the ground, far from it a box that floats, and one that falls on the stack after two and a half seconds.
+std::vector<BodyDefinition> sleepers() {
+    std::vector<BodyDefinition> bodies = {support::ground()};
+    for (int k = 0; k < 5; ++k)
+        bodies.push_back(support::box({1, 1, 1}, {0, 0.5 + k, 0}));
+    bodies.push_back(support::box({1, 1, 1}, {0, 40, 0}));
+    return bodies;
+}
+
+StepSettings sleeping() {
+    StepSettings settings;
+    settings.sleeping = true;
+    return settings;
+}
+
+TEST(World, AStackThatHasComeToRestSleepsUntilItIsHit) {
+    auto world = worldOf(sleepers(), sleeping());
+    run(*world, 100);
+    EXPECT_EQ(countsOf(*world).awake, 1u); // what falls
+    EXPECT_EQ(countsOf(*world).contacts, 0u);
+    const auto asleep = bodiesOf(*world);
+    run(*world, 40);
+    const auto later = bodiesOf(*world);
+    for (size_t b = 0; b + 1 < asleep.size(); ++b)
+        EXPECT_EQ(std::memcmp(&asleep[b].offset, &later[b].offset, 2 * sizeof(gpu::vec4)), 0);
+    float before = 0;
+    for (uint32_t step = 0; step < 60 && countsOf(*world).awake < 6; ++step) {
+        before = bodiesOf(*world)[6].velocity.y;
+        run(*world, 1);
+    }
+    EXPECT_EQ(countsOf(*world).awake, 6u);
+    EXPECT_NEAR(before, bodiesOf(*world)[6].velocity.y, 14) << "they wake in the step that it hits them in";
+    EXPECT_NEAR(before, -std::sqrt(2 * 9.81 * 34.5), 1);
+}
+
+TEST(World, DispatchesNothingWhileAllSleepAndGoesOnCounting) {
+    std::vector<BodyDefinition> bodies = sleepers();
+    bodies.pop_back();
+    auto world = worldOf(bodies, sleeping());
+    run(*world, 120);
+    const brittle::WorldCounts counts = countsOf(*world);
+    EXPECT_EQ(counts.awake, 0u);
+    EXPECT_EQ(counts.groups, 0u);
+    for (const gpu::BodyState& body : bodiesOf(*world)) {
+        EXPECT_EQ(body.velocity.y, 0);
+        EXPECT_EQ(body.momentum.x, 0);
+    }
+    const uint64_t before = hashOf(*world);
+    run(*world, 1001);
+    EXPECT_EQ(hashOf(*world), before);
+}
+
+TEST(World, WakesAfterItWasRestoredAsItWouldHaveWithout) {
+    auto first = worldOf(sleepers(), sleeping()), second = worldOf(sleepers(), sleeping());
+    run(*first, 121);
+    const auto saved = first->save();
+    ASSERT_TRUE(saved);
+    ASSERT_TRUE(second->restore(*saved));
+    for (const auto& world : {first.get(), second.get()})
+        run(*world, 80);
+    EXPECT_EQ(hashOf(*first), hashOf(*second));
+    EXPECT_EQ(countsOf(*second).awake, 6u);
+}
+
 TEST(World, GoesOnFromASavedStateAsIfNothingHadBeen) {
     const brittle::WorldContents contents = heap();
     const auto first = worldOf(contents), second = worldOf(contents);
@@ -137,6 +275,32 @@ TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
     EXPECT_EQ(done.error().code, engine::ErrorCode::Capacity);
     EXPECT_NE(done.error().message.find("finds 4 pairs"), std::string::npos) << done.error().message;
     EXPECT_EQ(hashOf(**world), before);
+}
+
+// Two crowds of sixty boxes each fly into each other: then there are more pairs than there is room for at first.
+WorldContents crowds() {
+    WorldContents contents;
+    for (int k = 0; k < 120; ++k) {
+        const double side = k < 60 ? -1 : 1;
+        BodyDefinition body = support::box({1, 1, 1}, {0.001 * k, 0.002 * (k % 7), 4 * side});
+        body.velocity = {0, 0, -60 * side};
+        EXPECT_TRUE(brittle::addBody(contents, body));
+    }
+    return contents;
+}
+
+TEST(World, MakesRoomForMorePairsAndGoesOnAsIfItHadHadIt) {
+    const WorldContents contents = crowds();
+    auto grown = World::create(engine_test::device(), contents),
+         roomy = World::create(engine_test::device(), contents, {}, {20000, 0});
+    ASSERT_TRUE(grown && roomy);
+    run(**grown, 2);
+    EXPECT_LT(countsOf(**grown).pairs, 4000u);
+    run(**roomy, 2);
+    for (const auto& world : {grown->get(), roomy->get()})
+        run(*world, 2);
+    EXPECT_GT(countsOf(**grown).pairs, 4000u);
+    EXPECT_EQ(hashOf(**grown), hashOf(**roomy));
 }
 
 TEST(SmallWorld, RefusesBodiesThatAreNone) {

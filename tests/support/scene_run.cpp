@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace support {
 namespace {
@@ -20,24 +21,19 @@ bool hasCells(const brittle::SceneDescription& scene) {
 
 Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
 
-Double3 turnedBy(const gpu::vec4& q, const Double3& v) {
-    const Double3 u = xyz(q), t = 2.0 * brittle::cross(u, v);
-    return v + double{q.w} * t + brittle::cross(u, t);
-}
-
-Double3 placeOf(const gpu::BodyState& b) {
-    return Double3{16.0 * b.sector.x, 16.0 * b.sector.y, 16.0 * b.sector.z} + xyz(b.offset);
-}
-
 double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
+
+brittle::SceneDescription builtin(const std::string& name) {
+    auto scene = brittle::makeBuiltinScene(name);
+    if (!scene) ADD_FAILURE() << scene.error().message;
+    return scene ? *scene : brittle::SceneDescription();
+}
 
 } // namespace
 
-SceneRun::SceneRun(const std::string& name) {
-    auto scene = brittle::makeBuiltinScene(name);
-    if (!scene) ADD_FAILURE() << scene.error().message;
-    if (!scene) return;
-    scene_ = *scene;
+SceneRun::SceneRun(const std::string& name) : SceneRun(builtin(name)) {}
+
+SceneRun::SceneRun(const brittle::SceneDescription& scene) : scene_(scene) {
     std::unique_ptr<brittle::Fracture> fracture;
     if (hasCells(scene_)) {
         auto made = brittle::Fracture::create(engine_test::device());
@@ -54,7 +50,7 @@ SceneRun::SceneRun(const std::string& name) {
     if (!world) ADD_FAILURE() << world.error().message;
     if (!world) return;
     world_ = std::move(*world);
-    first_ = now_ = contents_.bodies;
+    first_ = last_ = now_ = contents_.bodies;
 }
 
 void SceneRun::step(uint32_t steps) {
@@ -63,12 +59,12 @@ void SceneRun::step(uint32_t steps) {
     ASSERT_TRUE(done) << done.error().message;
     auto bodies = world_->bodies();
     ASSERT_TRUE(bodies);
-    now_ = std::move(*bodies);
+    last_ = std::exchange(now_, std::move(*bodies));
     made_ += steps;
 }
 
-Double3 SceneRun::place(size_t body) const { return placeOf(now_[body]); }
-Double3 SceneRun::way(size_t body) const { return placeOf(now_[body]) - placeOf(first_[body]); }
+Double3 SceneRun::place(size_t body) const { return poseOf(now_[body]).place; }
+Double3 SceneRun::way(size_t body) const { return poseOf(now_[body]).place - poseOf(first_[body]).place; }
 double SceneRun::speed(size_t body) const { return sizeOf(xyz(now_[body].velocity)); }
 
 double SceneRun::fastest() const {
@@ -110,6 +106,21 @@ Double3 SceneRun::momentum() const {
     return sum;
 }
 
+double SceneRun::momentumInAll() const {
+    double sum = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) sum += speed(b) / now_[b].offset.w;
+    return sum;
+}
+
+double SceneRun::angularMomentumInAll() const {
+    double sum = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b))
+            sum += sizeOf(xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity)));
+    return sum;
+}
+
 Double3 SceneRun::angularMomentum() const {
     Double3 sum = {0, 0, 0};
     for (size_t b = 0; b < now_.size(); ++b)
@@ -124,60 +135,33 @@ bool SceneRun::isFinite() const {
     });
 }
 
-reference::Convex SceneRun::pieceInWorld(size_t piece) const {
-    const gpu::uvec4 ids = contents_.pieces[piece].ids;
-    const gpu::HullRecord& hull = contents_.hulls.records[ids.x];
-    const gpu::BodyState& body = now_[ids.y];
-    reference::Convex solid;
-    for (uint32_t v = 0; v < hull.count.x; ++v) {
-        const Double3 p = place(ids.y) + turnedBy(body.turn, xyz(contents_.hulls.vertices[hull.first.x + v]));
-        solid.vertices.push_back({p[0], p[1], p[2]});
+std::vector<reference::SolidBox> SceneRun::sweptBoxes(double more) const {
+    std::vector<reference::SolidBox> boxes;
+    const double margin = 0.5 * scene_.step.margin + more;
+    for (size_t p = 0; p < contents_.pieces.size(); ++p) {
+        const uint32_t body = contents_.pieces[p].ids.y;
+        const gpu::BodyState& state = last_[body];
+        reference::Bounds bounds;
+        for (const reference::Point& v : pieceInWorld(contents_, p, poseOf(state)).vertices) {
+            bounds.grow(v);
+            if (moves(body)) bounds.grow(v + scene_.step.dt * xyz(state.velocity));
+        }
+        reference::SolidBox box = {.body = body, .fixed = !moves(body)};
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double rounding = 1e-6 * std::max(std::fabs(bounds.lower[axis]), std::fabs(bounds.upper[axis]));
+            box.low[axis] = bounds.lower[axis] - margin - (more > 0 ? rounding : 0);
+            box.high[axis] = bounds.upper[axis] + margin + (more > 0 ? rounding : 0);
+        }
+        boxes.push_back(box);
     }
-    for (uint32_t f = 0; f < hull.count.y; ++f) {
-        const gpu::HullFace& face = contents_.hulls.faces[hull.first.y + f];
-        const Double3 n = turnedBy(body.turn, xyz(face.plane));
-        reference::ConvexFace out;
-        out.normal = {n[0], n[1], n[2]};
-        for (uint32_t k = 0; k < face.loop.y; ++k)
-            out.loop.push_back(contents_.hulls.corners[face.loop.x + k]);
-        out.height = double{face.plane.w} + brittle::dot(n, place(ids.y));
-        solid.faces.push_back(std::move(out));
-    }
-    return solid;
+    return boxes;
 }
 
 std::vector<double> SceneRun::overlaps() const {
-    std::vector<reference::Convex> solids;
-    std::vector<std::array<double, 6>> boxes;
-    for (size_t p = 0; p < contents_.pieces.size(); ++p) {
-        solids.push_back(pieceInWorld(p));
-        std::array<double, 6> box = {1e300, 1e300, 1e300, -1e300, -1e300, -1e300};
-        for (const reference::Point& v : solids.back().vertices)
-            for (size_t k = 0; k < 3; ++k) {
-                box[k] = std::min(box[k], v[k]);
-                box[k + 3] = std::max(box[k + 3], v[k]);
-            }
-        boxes.push_back(box);
-    }
-    const auto meet = [&](size_t p, size_t q) {
-        for (size_t k = 0; k < 3; ++k)
-            if (boxes[p][k] > boxes[q][k + 3] || boxes[q][k] > boxes[p][k + 3]) return false;
-        return true;
-    };
-    std::vector<double> depths;
-    for (size_t p = 0; p < solids.size(); ++p)
-        for (size_t q = p + 1; q < solids.size(); ++q) {
-            const uint32_t a = contents_.pieces[p].ids.y, b = contents_.pieces[q].ids.y;
-            if (a == b || (!moves(a) && !moves(b)) || !meet(p, q)) continue;
-            const double depth = reference::overlapOf(solids[p], solids[q]);
-            if (depth > 0) depths.push_back(depth);
-        }
-    std::ranges::sort(depths);
-    return depths;
-}
-
-double percentile(const std::vector<double>& sorted, double share) {
-    return sorted.empty() ? 0 : sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))];
+    std::vector<Pose> poses;
+    for (const gpu::BodyState& body : now_)
+        poses.push_back(poseOf(body));
+    return overlapsOf(contents_, poses);
 }
 
 } // namespace support

@@ -3,7 +3,8 @@
 
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
-#include "tests/reference/convex.h"
+#include "tests/reference/boxes.h"
+#include "tests/support/body_overlaps.h"
 
 #include <memory>
 #include <string>
@@ -15,6 +16,7 @@ class SceneRun {
 public:
     // Fails the test where the scene cannot be made.
     explicit SceneRun(const std::string& name);
+    explicit SceneRun(const brittle::SceneDescription& scene);
 
     const brittle::SceneDescription& scene() const { return scene_; }
     brittle::World& world() { return *world_; }
@@ -35,21 +37,21 @@ public:
     double kineticEnergy() const;
     brittle::Double3 momentum() const;
     brittle::Double3 angularMomentum() const; // about the origin of the world
+    // Sums of the sizes of what each body has.
+    double momentumInAll() const;
+    double angularMomentumInAll() const;
     bool isFinite() const;
     // How deep pieces of different bodies lie in each other, the deepest last; pairs that do not overlap are left out.
     std::vector<double> overlaps() const;
+    // Of each piece on its way in the last step, which was made alone, with the margin of the scene and so much more.
+    std::vector<reference::SolidBox> sweptBoxes(double more) const;
 
 private:
-    reference::Convex pieceInWorld(size_t piece) const;
-
     brittle::SceneDescription scene_;
     brittle::WorldContents contents_;
     std::unique_ptr<brittle::World> world_;
-    std::vector<gpu::BodyState> first_, now_;
+    std::vector<gpu::BodyState> first_, last_, now_;
     uint32_t made_ = 0;
 };
-
-// Of sorted values; 0 of none.
-double percentile(const std::vector<double>& sorted, double share);
 
 } // namespace support

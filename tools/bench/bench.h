@@ -1,4 +1,4 @@
-// What cells and whole shatters cost, and what others take for the same on the same machine in the same run.
+// What cells, whole shatters and rigid bodies cost, and what others take for the same on the same machine in the same run.
 //
 // Ours and the peer's runs alternate, so that a machine that is busy for a while is busy for both, and medians are reported.
 // Peers run on one thread; we run on the device, which on a CPU device means all its threads.
@@ -24,6 +24,10 @@ struct BenchOptions {
     std::vector<uint32_t> variant_cell_counts = {100, 1'000, 10'000}; // sites in a cube, cut in every way there is
     std::vector<uint32_t> variant_shatter_counts = {100};             // and in the bumpy sphere
     std::vector<uint32_t> collider_directions = {6, 14, 26, 62};      // for every number of sites that is shattered
+    std::vector<uint32_t> pile_counts = {100, 1'000};                 // hulls that fall into a pit
+    uint32_t pile_steps = 300;                                        // of a sixtieth of a second
+    std::vector<uint32_t> box_counts = {1'000, 10'000, 100'000};      // of the broad phase
+    std::vector<uint32_t> pair_counts = {10'000};                     // of hulls, of the narrow phase
     uint32_t startup_rounds = 3;
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
@@ -80,6 +84,50 @@ struct ColliderRow {
     Times kernels;            // where asked for: the colliders' own
 };
 
+// How a pile lies in the end: overlaps of the bodies as they are, without margins, by the separating axis theorem in double
+// precision, the same for us and every peer.
+struct PileState {
+    double penetration_p99 = 0, penetration_most = 0; // m, of the pairs that overlap
+    size_t overlaps = 0;                              // how many of them
+    double energy = 0;                                // J, kinetic
+    double height = 0;                                // m, mean of the centers of mass: margins make piles higher
+    size_t escaped = 0;                               // bodies whose center of mass is behind one of the pit's planes
+};
+
+struct PilePeer {
+    std::string name;
+    double ms = 0; // a step
+    PileState state;
+};
+
+// The built-in scene hull_pile_N, all bodies awake. Blocks of ten steps alternate with those of the peers, which have the same
+// bodies in the same places.
+struct PileRow {
+    uint32_t bodies = 0, steps = 0;
+    double ms = 0;                                                // a step, submission and wait included: the mean of all
+    uint32_t dispatches = 0, pairs = 0, contacts = 0, colors = 0; // of the last step
+    PileState state;
+    Times stages; // of the device, a step: the mean over the last step of each block
+    std::vector<PilePeer> peers;
+};
+
+// Boxes as dense as in a heap, each of which moves on by up to three centimeters along each axis between two runs.
+struct BroadPhaseRow {
+    uint32_t boxes = 0;
+    size_t pairs = 0;
+    double ms = 0;           // device time, all of it anew
+    size_t bullet_pairs = 0; // of boxes that it has made a little larger
+    // Of its dynamic trees; 0 where it is not in the build.
+    double bullet_build_ms = 0; // all of it anew
+    double bullet_ms = 0;       // boxes moved within the trees, which it keeps, and pairs brought up to date
+};
+
+// Hulls of the pile, corner to face, from a centimeter apart to a centimeter deep.
+struct NarrowPhaseRow {
+    uint32_t pairs = 0, touching = 0;
+    double ms = 0; // device time
+};
+
 struct StartupRow {
     double cold_ms = 0, warm_ms = 0; // a process that breaks 1280 triangles into 10 cells, without and with the driver's cache
 };
@@ -99,6 +147,11 @@ engine::Result<std::vector<VariantRow>> benchVariants(engine::Device& device, co
                                                       const Progress& progress);
 engine::Result<std::vector<ColliderRow>> benchColliders(engine::Device& device, const BenchOptions& options,
                                                         const Progress& progress);
+engine::Result<std::vector<PileRow>> benchPiles(engine::Device& device, const BenchOptions& options, const Progress& progress);
+engine::Result<std::vector<BroadPhaseRow>> benchBroadPhase(engine::Device& device, const BenchOptions& options,
+                                                           const Progress& progress);
+engine::Result<std::vector<NarrowPhaseRow>> benchNarrowPhase(engine::Device& device, const BenchOptions& options,
+                                                             const Progress& progress);
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none

@@ -1,6 +1,7 @@
 // brittle bench: its options and what it prints.
 #include "shaders-spirv/shared/fracture.h"
 #include "tools/bench/bench.h"
+#include "tools/bench/dynamics_report.h"
 #include "tools/brittle/command.h"
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
     bench::BenchOptions bench;
     std::string device, output;
-    bool cells_only = false, shatter_only = false, variants_only = false, colliders_only = false;
+    bool cells_only = false, shatter_only = false, variants_only = false, colliders_only = false, dynamics_only = false;
 };
 
 // Below 1: ours is faster.
@@ -26,16 +27,6 @@ void addPeer(Json& row, const std::string& peer, double ms, double ours) {
     if (ms == 0) return;
     row[peer + "_ms"] = ms;
     row["times_" + peer] = ours / ms;
-}
-
-Json sharesOf(const char* what, const bench::Times& times) {
-    double sum = 0;
-    for (const auto& [name, ms] : times)
-        sum += ms;
-    Json rows = Json::array();
-    for (const auto& [name, ms] : times)
-        rows.push_back({{what, name}, {"ms", ms}, {"share", sum > 0 ? ms / sum : 0}});
-    return rows;
 }
 
 Json toJson(const bench::CellsRow& cells) {
@@ -92,6 +83,19 @@ Json toJson(const std::vector<Row>& rows) {
     return list;
 }
 
+engine::Result<Json> measureDynamics(engine::Device& device, const bench::BenchOptions& options,
+                                     const bench::Progress& progress) {
+    const auto piles = bench::benchPiles(device, options, progress);
+    if (!piles) return piles.error();
+    const auto broad_phase = bench::benchBroadPhase(device, options, progress);
+    if (!broad_phase) return broad_phase.error();
+    const auto narrow_phase = bench::benchNarrowPhase(device, options, progress);
+    if (!narrow_phase) return narrow_phase.error();
+    return Json{{"piles", pilesReport(*piles)},
+                {"broad_phase", broadPhaseReport(*broad_phase)},
+                {"narrow_phase", narrowPhaseReport(*narrow_phase)}};
+}
+
 engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& options) {
     const auto progress = [](const std::string& step) { std::fprintf(stderr, "%s\n", step.c_str()); };
     const auto cells = bench::benchCells(device, options, progress);
@@ -106,6 +110,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!variants) return variants.error();
     const auto colliders = bench::benchColliders(device, options, progress);
     if (!colliders) return colliders.error();
+    const auto dynamics = measureDynamics(device, options, progress);
+    if (!dynamics) return dynamics.error();
     Json report = {{"device", device.name()},
                    {"driver", device.driver()},
                    {"group_size", options.group_size == 0 ? GROUP_SIZE : options.group_size},
@@ -117,6 +123,7 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
                    {"growth", toJson(*growth)},
                    {"variants", toJson(*variants)},
                    {"colliders", toJson(*colliders)}};
+    report.update(*dynamics);
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);
     if (!startup) return startup.error();
@@ -133,33 +140,63 @@ int write(const Json& report, const std::string& path) {
     return kOk;
 }
 
-int runBench(Options options) {
-    const bool some = options.cells_only || options.shatter_only || options.variants_only || options.colliders_only;
-    if (some) {
-        if (!options.cells_only) options.bench.cell_counts.clear();
-        if (!options.shatter_only && !options.colliders_only) options.bench.shatter_counts.clear();
-        if (!options.colliders_only) options.bench.collider_directions.clear();
-        if (!options.variants_only) {
-            options.bench.variant_cell_counts.clear();
-            options.bench.variant_shatter_counts.clear();
-        }
-        options.bench.growth_levels.clear();
-        options.bench.startup_rounds = 0;
+// Leaves out what was not asked for, where some parts were.
+void keepAskedFor(Options& options) {
+    bench::BenchOptions& bench = options.bench;
+    bench.only_colliders = options.colliders_only;
+    if (!options.cells_only && !options.shatter_only && !options.variants_only && !options.colliders_only &&
+        !options.dynamics_only)
+        return;
+    if (!options.cells_only) bench.cell_counts.clear();
+    if (!options.shatter_only && !options.colliders_only) bench.shatter_counts.clear();
+    if (!options.colliders_only) bench.collider_directions.clear();
+    if (!options.variants_only) {
+        bench.variant_cell_counts.clear();
+        bench.variant_shatter_counts.clear();
     }
-    options.bench.only_colliders = options.colliders_only;
+    if (!options.dynamics_only) {
+        bench.pile_counts.clear();
+        bench.box_counts.clear();
+        bench.pair_counts.clear();
+    }
+    bench.growth_levels.clear();
+    bench.startup_rounds = 0;
+}
+
+int runBench(Options options) {
+    keepAskedFor(options);
     auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
     const auto report = measure(**device, options.bench);
     return report ? write(*report, options.output) : fail(report.error());
 }
 
-constexpr const char* kFooter = "Voro++ and CGAL run alternately with us, on one thread, where the build has them\n"
-                                "(tools/bench.sh builds both). Times are medians, in milliseconds.";
+constexpr const char* kFooter = "Voro++, CGAL and Bullet run alternately with us, on one thread, where the build has them\n"
+                                "(tools/bench.sh builds all). Times are medians, in milliseconds; of piles, which run\n"
+                                "once, they are means over all steps.";
+
+// Rigid bodies: what falls, what meets, what touches.
+void addDynamicsOptions(CLI::App& command, Options& options) {
+    command.add_flag("--dynamics", options.dynamics_only, "only rigid bodies: piles, the broad and the narrow phase");
+    command.add_option("--pile-counts", options.bench.pile_counts, "numbers of hulls that fall into a pit; 5000 take minutes")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 100'000u));
+    command.add_option("--pile-steps", options.bench.pile_steps, "steps of a sixtieth of a second that they are given")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1u << 20));
+    command.add_option("--box-counts", options.bench.box_counts, "numbers of boxes, for the broad phase")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1u << 18));
+    command.add_option("--pair-counts", options.bench.pair_counts, "numbers of pairs of hulls, for the narrow phase")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 500'000u));
+}
 
 } // namespace
 
 void addBench(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("bench", "Measure cells and whole shatters, next to Voro++ and CGAL.");
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure cells, whole shatters and rigid bodies, next to Voro++, CGAL and Bullet.");
     command->footer(kFooter);
     auto options = std::make_shared<Options>();
     command->add_option("-o,--output", options->output, "the JSON file to write, instead of standard output");
@@ -181,10 +218,14 @@ void addBench(CLI::App& app, int& exit_code) {
     command->add_option("--variant-counts", options->bench.variant_cell_counts, "numbers of sites in a cube, for all variants")
         ->capture_default_str()
         ->check(CLI::Range(1u, MOST_LINEAR_SITES));
-    command->add_flag("--colliders", options->colliders_only, "only colliders, of the shatters asked for")
-        ->excludes(cells)
-        ->excludes(shatters)
-        ->excludes(variants);
+    CLI::Option* colliders =
+        command->add_flag("--colliders", options->colliders_only, "only colliders, of the shatters asked for")
+            ->excludes(cells)
+            ->excludes(shatters)
+            ->excludes(variants);
+    addDynamicsOptions(*command, *options);
+    for (CLI::Option* other : {cells, shatters, variants, colliders})
+        command->get_option("--dynamics")->excludes(other);
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
     command->add_option("--group-size", options->bench.group_size, "lanes of a workgroup, a power of two from 8 to 256")

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace cli {
 namespace {
@@ -29,6 +31,10 @@ std::string groupSize(const std::string& text) {
     if (is_number && std::has_single_bit(lanes) && lanes >= 8 && lanes <= 256) return "";
     return "\"" + text + "\" is no power of two from 8 to 256";
 }
+
+std::string someText(const std::string& text) { return text.empty() ? "an empty name; leave the option out instead" : ""; }
+
+std::string notANumber(const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; }
 
 int fail(const engine::Error& error) {
     std::string line = error.message;

@@ -1,17 +1,20 @@
-// brittle: shatters models from the command line. Every subcommand stands in a file of its own; a new one is a row below.
+// brittle: shatters models and simulates scenes from the command line. Every subcommand stands in a file of its own; a new one
+// is a row below.
 #include "tools/brittle/command.h"
 
 #include <cstdio>
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor, cli::addScenes, cli::addBench};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices,  cli::addDoctor,
+                                         cli::addScenes,  cli::addSimulate, cli::addBench};
 
 constexpr const char* kFooter =
     "Examples:\n"
     "  brittle shatter vase.stl -o pieces.glb\n"
     "  brittle shatter builtin:ring -o ring.glb --sites 40 --picture ring.png --explode 0.3\n"
     "  brittle doctor vase.stl\n"
+    "  brittle simulate card_house -o house.glb\n"
     "\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
 

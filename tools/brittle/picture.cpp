@@ -3,9 +3,9 @@
 #include "engine/renderer.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "shaders-spirv/shared/scene.h"
+#include "tools/brittle/drawn_buffer.h"
 
 #include <cstring>
-#include <span>
 
 namespace cli {
 namespace {
@@ -68,20 +68,12 @@ std::vector<gpu::DrawCommand> drawCommands(const FragmentSet& set) {
     return commands;
 }
 
-template <class T>
-engine::Result<engine::Buffer> upload(engine::Device& device, const std::vector<T>& values, VkBufferUsageFlags usage) {
-    const std::span bytes = std::as_bytes(std::span(values));
-    auto buffer = engine::Buffer::create(device, bytes.size(), engine::BufferDomain::Upload, usage, "picture");
-    if (buffer) std::memcpy(buffer->mapped(), bytes.data(), bytes.size());
-    return buffer;
-}
-
 engine::Result<engine::Picture> draw(engine::Device& device, const FragmentSet& set, const Stage& stage) {
-    const auto vertices = upload(device, set.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    const auto indices = upload(device, set.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    const auto vertices = drawnBuffer(device, set.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    const auto indices = drawnBuffer(device, set.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     const std::vector<gpu::DrawCommand> draws = drawCommands(set);
-    const auto commands = upload(device, draws, 0);
-    const auto matrices = upload(device, stage.matrices(), 0);
+    const auto commands = drawnBuffer(device, draws, 0);
+    const auto matrices = drawnBuffer(device, stage.matrices(), 0);
     for (const auto* buffer : {&vertices, &indices, &commands, &matrices})
         if (!*buffer) return buffer->error();
     auto renderer = engine::Renderer::create(device, kWidth, kHeight);

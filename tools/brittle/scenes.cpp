@@ -6,6 +6,7 @@
 #include "modules/brittle/scene/scene_keys.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/same_file.h"
+#include "tools/brittle/scene_source.h"
 
 #include <nlohmann/json.hpp>
 
@@ -50,11 +51,6 @@ void printList(bool as_json) {
         std::printf("\nAlso hull_pile_N and stack_N, with any number. brittle scenes NAME prints one as a file.\n");
 }
 
-engine::Result<brittle::SceneDescription> sceneFrom(const std::string& name) {
-    if (name.ends_with(".toml")) return brittle::readScene(std::filesystem::path(name));
-    return brittle::makeBuiltinScene(name);
-}
-
 engine::Result<void> write(const std::string& path, const std::string& text) {
     auto file = brittle::OutputFile::create(path);
     if (!file) return file.error();
@@ -63,7 +59,7 @@ engine::Result<void> write(const std::string& path, const std::string& text) {
 }
 
 int showScene(const ScenesOptions& options) {
-    const auto scene = sceneFrom(options.scene);
+    const auto scene = readSceneOrBuiltin(options.scene);
     if (!scene) return fail(scene.error());
     const std::string text = options.as_json ? jsonOf(*scene).dump(2) + "\n" : brittle::writeScene(*scene);
     if (options.output.empty()) {

@@ -3,6 +3,7 @@
 #include "modules/brittle/collision/collider_mesh.h"
 #include "modules/brittle/export/glb.h"
 #include "modules/brittle/export/output_file.h"
+#include "tools/brittle/drop.h"
 #include "tools/brittle/model.h"
 #include "tools/brittle/picture.h"
 #include "tools/brittle/progress.h"
@@ -33,6 +34,7 @@ public:
 private:
     engine::Result<void> checkPathsApart() const;
     engine::Result<void> openOutputs();
+    engine::Result<void> openMotion();
     engine::Result<void> readModel();
     engine::Result<void> checkModel();
     engine::Result<void> readSites();
@@ -41,16 +43,18 @@ private:
     engine::Result<void> verify();
     engine::Error brokenContract(const std::string& violation) const;
     engine::Result<void> writeFragments();
+    engine::Result<void> dropFragments();
     engine::Result<void> writePicture();
     engine::Result<void> commitOutputs();
     engine::Error aboutModel(const engine::Error& error) const { return {error.code, options_.model + ": " + error.message}; }
 
     const ShatterOptions& options_;
     ShatterOutcome outcome_;
+    std::unique_ptr<engine::Device> device_; // outlives what draws with it
     std::optional<brittle::OutputFile> output_, picture_, collider_picture_;
+    std::unique_ptr<MotionOutput> motion_; // instead of `output_`
     std::optional<brittle::PreparedMesh> model_;
     std::vector<brittle::Double3> given_sites_;
-    std::unique_ptr<engine::Device> device_;
 };
 
 engine::Result<ShatterOutcome> Run::all() {
@@ -108,11 +112,18 @@ engine::Result<void> Run::openOutputs() {
         return {};
     };
     if (auto apart = checkPathsApart(); !apart) return apart.error();
-    if (auto opened = open(options_.output, output_); !opened) return opened.error();
+    if (auto opened = options_.drop ? openMotion() : open(options_.output, output_); !opened) return opened.error();
     if (!options_.picture.empty())
         if (auto opened = open(options_.picture, picture_); !opened) return opened.error();
     if (options_.collider_picture.empty()) return {};
     return open(options_.collider_picture, collider_picture_);
+}
+
+engine::Result<void> Run::openMotion() {
+    auto motion = MotionOutput::create(options_.output, options_.drop->fps);
+    if (!motion) return motion.error();
+    motion_ = std::move(*motion);
+    return {};
 }
 
 engine::Result<void> Run::readModel() {
@@ -193,7 +204,22 @@ engine::Result<void> Run::verify() {
     return aboutModel(brokenContract(violation));
 }
 
+engine::Result<void> Run::dropFragments() {
+    const brittle::FragmentSet& fragments = outcome_.result.fragments;
+    StagedScene staged;
+    staged.scene = dropScene(options_.model, fragments, options_.drop->height);
+    staged.room_advice = "here: use fewer sites";
+    auto contents = brittle::contentsOfBroken(staged.scene, fragments, &staged.surfaces);
+    if (!contents) return aboutModel(contents.error());
+    staged.contents = std::move(*contents);
+    auto report = simulate(*device_, staged, options_.drop->seconds, options_.group_size, motion_.get());
+    if (!report) return report.error();
+    outcome_.motion = std::move(*report);
+    return {};
+}
+
 engine::Result<void> Run::writeFragments() {
+    if (options_.drop) return dropFragments();
     const auto bytes = brittle::encodeGlb(outcome_.result.fragments);
     if (!bytes) return bytes.error();
     return output_->write(*bytes);
@@ -213,7 +239,7 @@ engine::Result<void> Run::commitOutputs() {
     for (auto* picture : {&picture_, &collider_picture_})
         if (*picture)
             if (auto committed = (*picture)->commit(); !committed) return committed.error();
-    return output_->commit();
+    return motion_ ? motion_->commit() : output_->commit();
 }
 
 } // namespace

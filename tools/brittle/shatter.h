@@ -5,6 +5,7 @@
 #include "modules/brittle/fracture/verify.h"
 #include "modules/brittle/mesh/check.h"
 #include "modules/brittle/mesh/repair/repair.h"
+#include "tools/brittle/simulation.h"
 
 #include <optional>
 #include <string>
@@ -12,6 +13,13 @@
 #include <vector>
 
 namespace cli {
+
+// The fragments fall and are simulated; the output is their motion (motion_output.h).
+struct DropOptions {
+    std::optional<double> height; // above the ground; half of the model's own if nothing else is said
+    double seconds = 3;
+    double fps = kUsualFps;
+};
 
 struct ShatterOptions {
     std::string model, output, device;
@@ -31,8 +39,9 @@ struct ShatterOptions {
     uint64_t seed = 1;
     uint32_t group_size = 0; // lanes of a workgroup; 0: the usual number
     uint32_t collider = 0;   // directions; 0: none
-    bool repair = false;     // mend the model where it needs to be
-    bool verify = false;     // refuse fragments that break their contract
+    std::optional<DropOptions> drop;
+    bool repair = false; // mend the model where it needs to be
+    bool verify = false; // refuse fragments that break their contract
     bool as_json = false;
 };
 
@@ -44,6 +53,7 @@ struct ShatterOutcome {
     brittle::ContractReport contract;               // where it was asked for
     std::vector<std::pair<std::string, double>> ms; // by what was done, in order; the stages on the device among them
     double total_ms = 0;
+    std::optional<SimulationReport> motion; // where they were dropped
 };
 
 // Writes the output and, if asked, the picture: both or none.

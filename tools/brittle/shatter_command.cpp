@@ -48,6 +48,7 @@ nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
         {"ms", ms},
     };
     if (!outcome.result.fragments.colliders.pieces.empty()) json["colliders"] = collidersJson(outcome.result.fragments);
+    if (outcome.motion) json["motion"] = simulationJson(*outcome.motion);
     if (!outcome.mended.isEmpty()) json["mended"] = mendedJson(outcome.mended);
     return json;
 }
@@ -72,6 +73,7 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
     std::printf("time       %.1f ms in all\n", outcome.total_ms);
     for (const auto& [name, ms] : outcome.ms)
         std::printf("  %-22s %9.2f ms\n", name.c_str(), ms);
+    if (outcome.motion) printSimulation(*outcome.motion, options.output);
 }
 
 int runShatter(const ShatterOptions& options) {
@@ -85,6 +87,8 @@ int runShatter(const ShatterOptions& options) {
     return kOk;
 }
 
+constexpr const char* kHalfOfModel = "half";
+constexpr uint32_t kUsualColliders = 26;
 const std::map<std::string, uint32_t> kColliders = {{"none", 0}, {"6", 6}, {"14", 14}, {"26", 26}, {"62", 62}};
 
 constexpr const char* kFooter =
@@ -94,6 +98,7 @@ constexpr const char* kFooter =
     "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
     "  brittle shatter vase.stl -o pieces.glb --sites 80 --at 0,0.1,0.3 --strength 5\n"
     "  brittle shatter vase.stl -o pieces.glb --collider 26 --collider-picture hulls.png --explode 0.3\n"
+    "  brittle shatter vase.stl -o fall.glb --sites 60 --drop 0.5\n"
     "\n"
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
@@ -134,11 +139,6 @@ std::string wholeNumber(const std::string& text) {
     return error == std::errc() && end == text.data() + text.size() ? "" : "\"" + text + "\" is no whole number below 2^64";
 }
 
-std::string someText(const std::string& text) { return text.empty() ? "an empty name; leave the option out instead" : ""; }
-
-// Ranges let NaN pass.
-std::string notANumber(const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; }
-
 // "X,Y,Z"
 std::optional<brittle::Double3> placeOf(const std::string& text) {
     brittle::Double3 place;
@@ -177,6 +177,53 @@ void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& option
         ->check(notANumber);
 }
 
+std::string heightAbove(const std::string& text) {
+    const char* end = text.c_str();
+    const double height = std::strtod(text.c_str(), const_cast<char**>(&end));
+    const bool is_height = !text.empty() && *end == '\0' && height >= 0 && height <= 1e5;
+    return is_height ? "" : "\"" + text + "\" is no height from 0 to 100000";
+}
+
+void addDrop(CLI::App& command, const std::shared_ptr<ShatterOptions>& options) {
+    const auto dropped = [options]() -> DropOptions& { return options->drop ? *options->drop : options->drop.emplace(); };
+    CLI::Option* drop =
+        command
+            .add_option_function<std::string>(
+                "--drop",
+                [dropped](const std::string& height) {
+                    dropped();
+                    if (height != kHalfOfModel) dropped().height = std::strtod(height.c_str(), nullptr);
+                },
+                "let the fragments fall onto the ground, so many meters below the model, and write their motion")
+            ->expected(0, 1)
+            ->default_str(kHalfOfModel)
+            ->check([](const std::string& text) { return text == kHalfOfModel ? "" : heightAbove(text); })
+            ->option_text("[HEIGHT] [half of the model's]");
+    command
+        .add_option_function<double>(
+            "--seconds", [dropped](double seconds) { dropped().seconds = seconds; }, "with --drop: how long they are simulated")
+        ->needs(drop)
+        ->check(CLI::Range(0.0, 1e6))
+        ->check(notANumber)
+        ->option_text("SECONDS [3]");
+    command
+        .add_option_function<double>(
+            "--fps", [dropped](double fps) { dropped().fps = fps; }, "with --drop: frames a second")
+        ->needs(drop)
+        ->check(CLI::Range(0.001, 1000.0))
+        ->check(notANumber)
+        ->option_text("FPS [60]");
+}
+
+// What falls has to meet something.
+void chooseColliders(const CLI::Option& collider, ShatterOptions& options) {
+    if (!options.drop) return;
+    if (collider.count() == 0) options.collider = kUsualColliders;
+    if (options.collider == 0)
+        throw CLI::ValidationError("--drop",
+                                   "needs colliders for the fragments to lie on; ask for --collider 26 or leave it out");
+}
+
 } // namespace
 
 void addShatter(CLI::App& app, int& exit_code) {
@@ -184,7 +231,9 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     auto options = std::make_shared<ShatterOptions>();
     command->add_option("MODEL", options->model, kModelHelp)->required();
-    command->add_option("-o,--output", options->output, "the GLB file to write, a node for every fragment")
+    command
+        ->add_option("-o,--output", options->output,
+                     "the GLB file to write, a node for every fragment; with --drop also .png or .mp4")
         ->required()
         ->check(someText);
     CLI::Option* sites = command->add_option("--sites", options->sites, "how many sites, and so about how many fragments")
@@ -223,6 +272,7 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_option("--collider-picture", options->collider_picture, "draw the colliders into this PNG file")
         ->needs(collider)
         ->check(someText);
+    addDrop(*command, options);
     command->add_flag("--repair", options->repair, kRepairHelp);
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");
@@ -238,7 +288,8 @@ void addShatter(CLI::App& app, int& exit_code) {
                      "lanes of a workgroup, a power of two from 8 to 256; the fragments are the same")
         ->check(groupSize)
         ->option_text("N [64]");
-    command->callback([command, options, &exit_code] {
+    command->callback([command, collider, options, &exit_code] {
+        chooseColliders(*collider, *options);
         const bool aimed = options->pattern != brittle::Pattern::Uniform;
         for (const char* name : {"--at", "--strength"})
             if (command->get_option(name)->count() > 0 && !aimed)

@@ -18,6 +18,7 @@ using Loops = std::span<const std::vector<uint32_t>>;
 using EdgeSides = std::map<std::array<uint32_t, 2>, uint32_t>; // directed edge to the face on whose loop it runs
 
 constexpr double kBulge = 1e-3; // of the radius
+constexpr double kFlat = 1e-5;  // likewise: what rounding alone may do to a face that is no sliver
 
 float narrow(double x) { return static_cast<float>(x); }
 
@@ -71,20 +72,18 @@ gpu::vec4 ballOf(std::span<const Float3> vertices) {
     return ball;
 }
 
-// By Newell's method, through the middle of the corners' heights.
-gpu::vec4 planeOf(std::span<const Float3> vertices, const std::vector<uint32_t>& loop) {
+// By Newell's method. No direction where the loop has no area.
+Double3 normalOf(std::span<const Float3> vertices, const std::vector<uint32_t>& loop) {
     const Double3 base = toDouble(vertices[loop[0]]);
     Double3 n = {0, 0, 0};
-    for (size_t c = 0; c < loop.size(); ++c) {
-        const Double3 p = toDouble(vertices[loop[c]]) - base, q = toDouble(vertices[loop[(c + 1) % loop.size()]]) - base;
-        const Double3 part = cross(p, q);
-        for (size_t k = 0; k < 3; ++k)
-            n[k] += part[k];
-    }
-    const double size = std::sqrt(dot(n, n));
-    for (double& x : n)
-        x = size > 0 ? x / size : 0;
-    double low = dot(n, base), high = low;
+    for (size_t c = 0; c < loop.size(); ++c)
+        n += cross(toDouble(vertices[loop[c]]) - base, toDouble(vertices[loop[(c + 1) % loop.size()]]) - base);
+    return normalized(n, {0, 0, 0});
+}
+
+// Through the middle of the corners' heights.
+gpu::vec4 planeOf(std::span<const Float3> vertices, const std::vector<uint32_t>& loop, const Double3& n) {
+    double low = dot(n, toDouble(vertices[loop[0]])), high = low;
     for (const uint32_t c : loop) {
         low = std::min(low, dot(n, toDouble(vertices[c])));
         high = std::max(high, dot(n, toDouble(vertices[c])));
@@ -92,20 +91,33 @@ gpu::vec4 planeOf(std::span<const Float3> vertices, const std::vector<uint32_t>&
     return {narrow(n[0]), narrow(n[1]), narrow(n[2]), narrow((low + high) / 2)};
 }
 
-Result<void> checkConvex(std::span<const Float3> vertices, const gpu::vec4& plane, double radius, size_t face) {
-    if (plane.x == 0 && plane.y == 0 && plane.z == 0) return refuse("face " + std::to_string(face) + " has no area");
-    for (const Float3& v : vertices) {
-        const double height = dot({plane.x, plane.y, plane.z}, toDouble(v)) - plane.w;
-        if (height > kBulge * radius) return refuse("a vertex lies beyond face " + std::to_string(face));
-    }
-    return {};
+bool isPlane(const gpu::vec4& plane) { return plane.x != 0 || plane.y != 0 || plane.z != 0; }
+
+// How far vertices lie beyond.
+double bulgeOf(std::span<const Float3> vertices, const gpu::vec4& plane) {
+    double bulge = 0;
+    for (const Float3& v : vertices)
+        bulge = std::max(bulge, dot({plane.x, plane.y, plane.z}, toDouble(v)) - plane.w);
+    return bulge;
 }
 
-Result<std::vector<gpu::vec4>> planesOf(std::span<const Float3> vertices, Loops loops, double radius) {
+// The loop's own, unless the given normal makes a better one: corners of a sliver lie across it as they were rounded.
+gpu::vec4 betterPlane(std::span<const Float3> vertices, const std::vector<uint32_t>& loop, const Double3& given,
+                      double radius) {
+    const gpu::vec4 own = planeOf(vertices, loop, normalOf(vertices, loop)), other = planeOf(vertices, loop, given);
+    const double bulge = bulgeOf(vertices, own);
+    if (isPlane(own) && bulge <= kFlat * radius) return own;
+    return !isPlane(own) || bulgeOf(vertices, other) < bulge ? other : own;
+}
+
+Result<std::vector<gpu::vec4>> planesOf(std::span<const Float3> vertices, Loops loops, std::span<const Float3> normals,
+                                        double radius) {
     std::vector<gpu::vec4> planes;
-    for (const auto& loop : loops) {
-        planes.push_back(planeOf(vertices, loop));
-        if (auto convex = checkConvex(vertices, planes.back(), radius, planes.size() - 1); !convex) return convex.error();
+    for (size_t f = 0; f < loops.size(); ++f) {
+        planes.push_back(normals.empty() ? planeOf(vertices, loops[f], normalOf(vertices, loops[f]))
+                                         : betterPlane(vertices, loops[f], toDouble(normals[f]), radius));
+        if (!isPlane(planes[f])) return refuse("face " + std::to_string(f) + " has no area");
+        if (bulgeOf(vertices, planes[f]) > kBulge * radius) return refuse("a vertex lies beyond face " + std::to_string(f));
     }
     return planes;
 }
@@ -120,12 +132,13 @@ gpu::HullRecord recordOf(const HullSet& set, std::span<const Float3> vertices, L
 
 } // namespace
 
-Result<uint32_t> addHull(HullSet& set, std::span<const Float3> vertices, Loops loops) {
+Result<uint32_t> addHull(HullSet& set, std::span<const Float3> vertices, Loops loops, std::span<const Float3> normals) {
+    if (!normals.empty() && normals.size() != loops.size()) return refuse("it has other normals than faces");
     if (auto sizes = checkSizes(vertices, loops); !sizes) return sizes.error();
     const auto sides = sidesOf(vertices, loops);
     if (!sides) return sides.error();
     const gpu::HullRecord record = recordOf(set, vertices, loops, *sides);
-    const auto planes = planesOf(vertices, loops, record.center.w);
+    const auto planes = planesOf(vertices, loops, normals, record.center.w);
     if (!planes) return planes.error();
 
     for (const Float3& v : vertices)

@@ -1,11 +1,12 @@
 #include "modules/brittle/dynamics/scene_contents.h"
 
-#include "modules/brittle/mesh/import.h"
+#include "modules/brittle/dynamics/grown_piece.h"
+#include "modules/brittle/dynamics/piece_shape.h"
+#include "modules/brittle/dynamics/pose.h"
+#include "modules/brittle/dynamics/sibling_contacts.h"
 #include "modules/brittle/mesh/prepare.h"
-#include "modules/brittle/mesh/primitives.h"
 #include "modules/brittle/scene/body_shape.h"
-
-#include <Eigen/Geometry>
+#include "modules/brittle/scene/shape_model.h"
 
 #include <algorithm>
 
@@ -17,44 +18,22 @@ using engine::ErrorCode;
 using engine::Result;
 
 constexpr double kPlaneEdge = 1000, kPlaneDepth = 10;
+constexpr double kLeastShown = 10; // m, of a plane's edge
 
-Eigen::Quaterniond rotation(const Turn& t) { return Eigen::Quaterniond(t[3], t[0], t[1], t[2]).normalized(); }
-
-Double3 turnedBy(const Turn& turn, const Double3& v) {
-    const Eigen::Vector3d r = rotation(turn) * Eigen::Vector3d(v[0], v[1], v[2]);
-    return {r.x(), r.y(), r.z()};
+Result<PieceShape> cellPiece(const FragmentSet& set, uint32_t k, double inflate) {
+    const ColliderPiece& piece = set.colliders.pieces[k];
+    const Double3& center = set.fragments[k].centroid;
+    if (inflate == 0) return pieceOf(set.colliders, piece, center);
+    return grownPiece(set.colliders, piece, center, inflate);
 }
 
-// About `center`.
-PieceShape pieceOf(const ConvexHull& hull, const Double3& center) {
-    PieceShape piece;
-    for (const Double3& v : hull.vertices)
-        piece.vertices.push_back(toFloat(v - center));
-    for (const ConvexHull::Face& face : hull.faces)
-        piece.loops.emplace_back(hull.corners.begin() + face.first_corner,
-                                 hull.corners.begin() + face.first_corner + face.corner_count);
-    return piece;
+std::string nameOf(const std::string& given, const char* what, size_t index) {
+    return given.empty() ? what + std::string("_") + std::to_string(index) : given;
 }
 
-// A piece of fracture's, whose vertices count from the middle of what was broken.
-PieceShape pieceOf(const ColliderSet& set, const ColliderPiece& piece, const Double3& center, double grow) {
-    PieceShape shape;
-    for (uint32_t v = 0; v < piece.vertex_count; v++) {
-        const Double3 from = toDouble(set.vertices[piece.first_vertex + v]) - center;
-        const double length = std::sqrt(dot(from, from));
-        shape.vertices.push_back(toFloat(length > 0 ? (1 + grow / length) * from : from));
-    }
-    for (uint32_t f = 0; f < piece.face_count; f++) {
-        const ColliderFace& face = set.faces[piece.first_face + f];
-        shape.loops.emplace_back(set.corners.begin() + face.first_corner,
-                                 set.corners.begin() + face.first_corner + face.corner_count);
-    }
-    return shape;
-}
-
-BodyDefinition bodyOf(const BodyDescription& d) {
+BodyDefinition bodyOf(const BodyDescription& d, const std::string& name) {
     BodyDefinition body;
-    body.name = d.name;
+    body.name = name;
     body.turn = d.turn;
     body.velocity = d.velocity;
     body.spin = d.spin;
@@ -67,18 +46,6 @@ std::array<double, 6> scaled(std::array<double, 6> inertia, double density) {
     for (double& x : inertia)
         x *= density;
     return inertia;
-}
-
-Result<void> addWhole(WorldContents& contents, const BodyDescription& d, const std::filesystem::path& folder) {
-    const auto hull = hullOf(d.shape, folder);
-    if (!hull) return Error{hull.error().code, "body \"" + d.name + "\": " + hull.error().message};
-    BodyDefinition body = bodyOf(d);
-    body.pieces = {pieceOf(hull->hull, hull->measures.center)};
-    body.place = d.place + turnedBy(d.turn, hull->measures.center);
-    body.mass = massOf(d, hull->measures.volume);
-    body.inertia = scaled(hull->measures.inertia, body.mass / hull->measures.volume);
-    if (auto added = addBody(contents, body); !added) return added.error();
-    return {};
 }
 
 ImportedMesh meshOf(const ConvexHull& hull) {
@@ -95,22 +62,20 @@ ImportedMesh meshOf(const ConvexHull& hull) {
 }
 
 Result<ImportedMesh> modelOf(const ShapeDescription& shape, const std::filesystem::path& folder) {
-    constexpr std::string_view kBuiltin = "builtin:";
     if (shape.kind != ShapeKind::Mesh) {
         const auto hull = hullOf(shape, folder);
         if (!hull) return hull.error();
         return meshOf(hull->hull);
     }
-    const std::string_view file = shape.file;
-    auto model = file.starts_with(kBuiltin) ? makeBuiltin(file.substr(kBuiltin.size())) : importMesh(folder / shape.file);
-    if (!model) return model;
-    for (Double3& p : model->positions)
-        for (size_t k = 0; k < 3; k++)
-            p[k] *= shape.scale[k];
-    return model;
+    return readModel(shape, folder);
 }
 
-Result<FragmentSet> cellsOf(const ShapeDescription& shape, const std::filesystem::path& folder, Fracture& fracture) {
+struct Cells {
+    PreparedMesh model; // what was broken
+    FragmentSet fragments;
+};
+
+Result<Cells> cellsOf(const ShapeDescription& shape, const std::filesystem::path& folder, Fracture& fracture) {
     auto model = modelOf(shape, folder);
     if (!model) return model.error();
     auto mesh = prepareMesh(*model);
@@ -123,7 +88,7 @@ Result<FragmentSet> cellsOf(const ShapeDescription& shape, const std::filesystem
     options.collider = shape.cells.directions;
     auto broken = fracture.shatter(mesh->mesh, mesh->topology, options);
     if (!broken) return broken.error();
-    return std::move(broken->fragments);
+    return Cells{std::move(*mesh), std::move(broken->fragments)};
 }
 
 double densityOf(const BodyDescription& d, const FragmentSet& set) {
@@ -131,60 +96,6 @@ double densityOf(const BodyDescription& d, const FragmentSet& set) {
     for (const Fragment& f : set.fragments)
         volume += f.volume;
     return massOf(d, volume) / volume;
-}
-
-// Each cell a body: at rest against each other, they move as the whole did.
-Result<void> addBroken(WorldContents& contents, const BodyDescription& d, const FragmentSet& set, double density) {
-    for (uint32_t k = 0; k < set.fragments.size(); k++) {
-        const Fragment& f = set.fragments[k];
-        BodyDefinition body = bodyOf(d);
-        body.name += "/" + std::to_string(k);
-        const Double3 way = turnedBy(d.turn, set.center + f.centroid);
-        body.pieces = {pieceOf(set.colliders, set.colliders.pieces[k], f.centroid, d.shape.cells.inflate)};
-        body.place = d.place + way;
-        body.velocity = d.velocity + cross(d.spin, way);
-        body.mass = density * f.volume;
-        body.inertia = scaled(f.inertia, density);
-        if (auto added = addBody(contents, body); !added) return added.error();
-    }
-    return {};
-}
-
-// All of the cells together, about their common center of mass.
-Result<void> addCompound(WorldContents& contents, const BodyDescription& d, const FragmentSet& set, double density) {
-    Double3 center = {0, 0, 0};
-    double mass = 0;
-    for (const Fragment& f : set.fragments) {
-        mass += density * f.volume;
-        center = center + density * f.volume * f.centroid;
-    }
-    center = (1 / mass) * center;
-    BodyDefinition body = bodyOf(d);
-    body.mass = mass;
-    for (uint32_t k = 0; k < set.fragments.size(); k++) {
-        const Fragment& f = set.fragments[k];
-        const Double3 r = f.centroid - center;
-        const double m = density * f.volume, square = dot(r, r);
-        const double away[6] = {square - r[0] * r[0], square - r[1] * r[1], square - r[2] * r[2],
-                                -r[0] * r[1],         -r[0] * r[2],         -r[1] * r[2]};
-        for (size_t i = 0; i < 6; i++)
-            body.inertia[i] += density * f.inertia[i] + m * away[i];
-        body.pieces.push_back(pieceOf(set.colliders, set.colliders.pieces[k], center, 0));
-    }
-    body.place = d.place + turnedBy(d.turn, set.center + center);
-    if (auto added = addBody(contents, body); !added) return added.error();
-    return {};
-}
-
-Result<void> addDescribed(WorldContents& contents, const BodyDescription& d, const std::filesystem::path& folder,
-                          Fracture* fracture) {
-    if (d.shape.cells.sites == 0 && d.shape.kind != ShapeKind::Mesh) return addWhole(contents, d, folder);
-    if (fracture == nullptr)
-        return Error{ErrorCode::Internal, "body \"" + d.name + "\" has cells, and there is nothing to cut them with"};
-    const auto set = cellsOf(d.shape, folder, *fracture);
-    if (!set) return Error{set.error().code, "body \"" + d.name + "\": " + set.error().message};
-    const double density = densityOf(d, *set);
-    return d.shape.cells.broken ? addBroken(contents, d, *set, density) : addCompound(contents, d, *set, density);
 }
 
 PieceShape planePiece() {
@@ -200,18 +111,26 @@ PieceShape planePiece() {
 }
 
 // Every triangle is a piece of its own, with two sides.
-Result<std::vector<PieceShape>> surfacePieces(const ShapeDescription& shape, const std::filesystem::path& folder) {
-    const auto model = modelOf(shape, folder);
-    if (!model) return model.error();
+std::vector<PieceShape> piecesOf(const ImportedMesh& model) {
     std::vector<PieceShape> pieces;
-    for (const Index3& t : model->triangles) {
+    for (const Index3& t : model.triangles) {
         PieceShape piece;
         for (const uint32_t v : t)
-            piece.vertices.push_back(toFloat(model->positions[v]));
+            piece.vertices.push_back(toFloat(model.positions[v]));
         piece.loops = {{0, 1, 2}, {2, 1, 0}};
         pieces.push_back(std::move(piece));
     }
     return pieces;
+}
+
+// A few times as far as bodies reach at the beginning.
+double shownEdge(const WorldContents& contents, const Double3& middle) {
+    double reach = kLeastShown / 6;
+    for (size_t k = 0; k < contents.bodies.size(); ++k)
+        if (contents.bodies[k].offset.w > 0)
+            reach = std::max(reach, length(poseOf(contents.bodies[k]).place - middle) +
+                                        double{contents.shapes[k].inverse_inertia[2].w});
+    return std::min(6 * reach, kPlaneEdge);
 }
 
 // A plane has no middle: its box lies below the bodies.
@@ -224,49 +143,201 @@ Double3 middleOf(const ColliderDescription& d, const std::vector<BodyDescription
     return mean - dot(mean - d.place, out) * out;
 }
 
-Result<void> addCollider(WorldContents& contents, const ColliderDescription& d, const SceneDescription& scene,
-                         const std::filesystem::path& folder) {
-    BodyDefinition body;
-    body.name = d.name;
-    body.place = d.place;
-    body.turn = d.turn;
-    body.friction = d.surface.friction;
-    body.restitution = d.surface.restitution;
-    if (d.shape.kind == ShapeKind::Plane) {
-        body.pieces = {planePiece()};
-        body.place = middleOf(d, scene.bodies);
-    } else if (d.shape.kind == ShapeKind::Mesh) {
-        auto pieces = surfacePieces(d.shape, folder);
-        if (!pieces) return Error{pieces.error().code, "collider \"" + d.name + "\": " + pieces.error().message};
-        body.pieces = std::move(*pieces);
-    } else {
-        const auto hull = hullOf(d.shape, folder);
-        if (!hull) return Error{hull.error().code, "collider \"" + d.name + "\": " + hull.error().message};
-        body.pieces = {pieceOf(hull->hull, {0, 0, 0})};
-    }
-    if (auto added = addBody(contents, body); !added) return added.error();
-    return {};
-}
-
 bool hasEffect(const SceneDescription& scene, std::string_view name) {
     return std::ranges::find(scene.effects, name) != scene.effects.end();
 }
 
+// About the common center of mass of all cells: pieces, mass, inertia.
+BodyDefinition compoundOf(BodyDefinition body, const FragmentSet& set, double density, const Double3& center) {
+    for (uint32_t k = 0; k < set.fragments.size(); k++) {
+        const Fragment& f = set.fragments[k];
+        const Double3 r = f.centroid - center;
+        const double m = density * f.volume, square = dot(r, r);
+        const double away[6] = {square - r[0] * r[0], square - r[1] * r[1], square - r[2] * r[2],
+                                -r[0] * r[1],         -r[0] * r[2],         -r[1] * r[2]};
+        for (size_t i = 0; i < 6; i++)
+            body.inertia[i] += density * f.inertia[i] + m * away[i];
+        body.mass += m;
+        body.pieces.push_back(pieceOf(set.colliders, set.colliders.pieces[k], center));
+    }
+    return body;
+}
+
+Double3 centerOf(const FragmentSet& set) {
+    Double3 center = {0, 0, 0};
+    double volume = 0;
+    for (const Fragment& f : set.fragments) {
+        volume += f.volume;
+        center += f.volume * f.centroid;
+    }
+    return (1 / volume) * center;
+}
+
+// Adds what a scene describes, body by body, to a world's contents, and to what it looks like where that is asked for.
+class ContentsMaker {
+public:
+    ContentsMaker(const SceneDescription& scene, const std::filesystem::path& folder, Fracture* fracture,
+                  WorldSurfaces* surfaces)
+        : scene_(scene), folder_(folder), fracture_(fracture) {
+        if (surfaces != nullptr) surfaces_.emplace(*surfaces);
+    }
+    // `broken`: the cells of the first body, where it has been broken already.
+    Result<WorldContents> all(const FragmentSet* broken);
+
+private:
+    Result<void> addDescribed(const BodyDescription& d, const std::string& name);
+    Result<void> addWhole(const BodyDescription& d, const std::string& name);
+    Result<void> addBroken(const BodyDescription& d, const std::string& name, const FragmentSet& set, const Double3& center);
+    void addSiblings(const BodyDescription& d, const FragmentSet& set, const Double3& center);
+    Result<void> addCompound(const BodyDescription& d, const std::string& name, const Cells& cells);
+    Result<void> addCollider(const ColliderDescription& d, const std::string& name);
+    Result<void> addPlane(const ColliderDescription& d, BodyDefinition body);
+    Result<void> addSurface(const ColliderDescription& d, BodyDefinition body);
+    void leaveOutEffects();
+    // `surface` is only made where surfaces are asked for.
+    template <class MakeSurface>
+    Result<void> add(const BodyDefinition& body, MakeSurface&& surface, bool is_plane = false) {
+        if (auto added = addBody(contents_, body); !added) return added.error();
+        if (surfaces_) surfaces_->add(body, surface(), is_plane);
+        return {};
+    }
+
+    const SceneDescription& scene_;
+    const std::filesystem::path& folder_;
+    Fracture* fracture_;
+    WorldContents contents_;
+    std::optional<SurfaceCollector> surfaces_;
+};
+
+Result<WorldContents> ContentsMaker::all(const FragmentSet* broken) {
+    for (size_t k = 0; k < scene_.bodies.size(); k++) {
+        const BodyDescription& body = scene_.bodies[k];
+        const std::string name = nameOf(body.name, "body", k);
+        const bool is_there = k == 0 && broken != nullptr;
+        const auto added = is_there ? addBroken(body, name, *broken, {0, 0, 0}) : addDescribed(body, name);
+        if (!added) return added.error();
+    }
+    for (size_t k = 0; k < scene_.colliders.size(); k++)
+        if (auto added = addCollider(scene_.colliders[k], nameOf(scene_.colliders[k].name, "collider", k)); !added)
+            return added.error();
+    leaveOutEffects();
+    return std::move(contents_);
+}
+
+void ContentsMaker::leaveOutEffects() {
+    const bool friction = hasEffect(scene_, "friction"), restitution = hasEffect(scene_, "restitution");
+    for (gpu::BodyShape& shape : contents_.shapes) {
+        if (!friction) shape.inverse_inertia[0].w = 0;
+        if (!restitution) shape.inverse_inertia[1].w = 0;
+    }
+}
+
+Result<void> ContentsMaker::addDescribed(const BodyDescription& d, const std::string& name) {
+    if (d.shape.cells.sites == 0 && d.shape.kind != ShapeKind::Mesh) return addWhole(d, name);
+    if (fracture_ == nullptr)
+        return Error{ErrorCode::Internal, "body \"" + name + "\" has cells, and there is nothing to cut them with"};
+    const auto cells = cellsOf(d.shape, folder_, *fracture_);
+    if (!cells) return Error{cells.error().code, "body \"" + name + "\": " + cells.error().message};
+    const FragmentSet& set = cells->fragments;
+    return d.shape.cells.broken ? addBroken(d, name, set, set.center) : addCompound(d, name, *cells);
+}
+
+Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string& name) {
+    const auto hull = hullOf(d.shape, folder_);
+    if (!hull) return Error{hull.error().code, "body \"" + name + "\": " + hull.error().message};
+    const HullMeasures& measures = hull->measures;
+    BodyDefinition body = bodyOf(d, name);
+    body.pieces = {pieceOf(hull->hull, measures.center)};
+    body.place = d.place + turnedBy(d.turn, measures.center);
+    body.mass = massOf(d, measures.volume);
+    body.inertia = scaled(measures.inertia, body.mass / measures.volume);
+    return add(body, [&] { return surfaceOf(hull->hull, measures.center); });
+}
+
+// Each cell a body: at rest against each other, they move as the whole did.
+// `center`: of the set, in the body's frame.
+Result<void> ContentsMaker::addBroken(const BodyDescription& d, const std::string& name, const FragmentSet& set,
+                                      const Double3& center) {
+    const double density = densityOf(d, set);
+    for (uint32_t k = 0; k < set.fragments.size(); k++) {
+        const Fragment& f = set.fragments[k];
+        BodyDefinition body = bodyOf(d, name + "/" + std::to_string(k));
+        const Double3 way = turnedBy(d.turn, center + f.centroid);
+        const auto piece = cellPiece(set, k, d.shape.cells.inflate);
+        if (!piece) return Error{piece.error().code, "body \"" + body.name + "\": " + piece.error().message};
+        body.pieces = {*piece};
+        body.place = d.place + way;
+        body.velocity = d.velocity + cross(d.spin, way);
+        body.mass = density * f.volume;
+        body.inertia = scaled(f.inertia, density);
+        if (auto added = add(body, [&] { return surfaceOf(set, f, f.centroid); }); !added) return added;
+    }
+    if (d.shape.cells.inflate == 0) addSiblings(d, set, center);
+    return {};
+}
+
+void ContentsMaker::addSiblings(const BodyDescription& d, const FragmentSet& set, const Double3& center) {
+    const auto first = static_cast<uint32_t>(contents_.pieces.size() - set.fragments.size()); // a fragment is a piece
+    for (const SharedFace& face : sharedFaces(set)) {
+        SiblingContact contact = {first + face.a, first + face.b, turnedBy(d.turn, face.normal), {}};
+        for (const Double3& p : face.points)
+            contact.points.push_back(d.place + turnedBy(d.turn, center + p));
+        contents_.siblings.push_back(std::move(contact));
+    }
+}
+
+Result<void> ContentsMaker::addCompound(const BodyDescription& d, const std::string& name, const Cells& cells) {
+    const FragmentSet& set = cells.fragments;
+    const Double3 center = centerOf(set);
+    BodyDefinition body = compoundOf(bodyOf(d, name), set, densityOf(d, set), center);
+    body.place = d.place + turnedBy(d.turn, set.center + center);
+    return add(body, [&] { return surfaceOf(cells.model.mesh, center); });
+}
+
+Result<void> ContentsMaker::addCollider(const ColliderDescription& d, const std::string& name) {
+    BodyDefinition body;
+    body.name = name;
+    body.place = d.place;
+    body.turn = d.turn;
+    body.friction = d.surface.friction;
+    body.restitution = d.surface.restitution;
+    if (d.shape.kind == ShapeKind::Plane) return addPlane(d, std::move(body));
+    if (d.shape.kind == ShapeKind::Mesh) return addSurface(d, std::move(body));
+    const auto hull = hullOf(d.shape, folder_);
+    if (!hull) return Error{hull.error().code, "collider \"" + name + "\": " + hull.error().message};
+    body.pieces = {pieceOf(hull->hull, {0, 0, 0})};
+    return add(body, [&] { return surfaceOf(hull->hull, {0, 0, 0}); });
+}
+
+Result<void> ContentsMaker::addPlane(const ColliderDescription& d, BodyDefinition body) {
+    body.pieces = {planePiece()};
+    body.place = middleOf(d, scene_.bodies);
+    return add(
+        body, [&] { return squareSurface(shownEdge(contents_, body.place)); }, true);
+}
+
+Result<void> ContentsMaker::addSurface(const ColliderDescription& d, BodyDefinition body) {
+    const auto model = modelOf(d.shape, folder_);
+    if (!model) return Error{model.error().code, "collider \"" + body.name + "\": " + model.error().message};
+    body.pieces = piecesOf(*model);
+    return add(body, [&] { return surfaceOf(*model); });
+}
+
 } // namespace
 
-Result<WorldContents> contentsOf(const SceneDescription& scene, const std::filesystem::path& folder, Fracture* fracture) {
-    WorldContents contents;
-    for (const BodyDescription& body : scene.bodies)
-        if (auto added = addDescribed(contents, body, folder, fracture); !added) return added.error();
-    for (const ColliderDescription& collider : scene.colliders)
-        if (auto added = addCollider(contents, collider, scene, folder); !added) return added.error();
-    if (!hasEffect(scene, "friction"))
-        for (gpu::BodyShape& shape : contents.shapes)
-            shape.inverse_inertia[0].w = 0;
-    if (!hasEffect(scene, "restitution"))
-        for (gpu::BodyShape& shape : contents.shapes)
-            shape.inverse_inertia[1].w = 0;
-    return contents;
+bool needsFracture(const SceneDescription& scene) {
+    return std::ranges::any_of(scene.bodies, [](const BodyDescription& body) {
+        return body.shape.cells.sites != 0 || body.shape.kind == ShapeKind::Mesh;
+    });
+}
+
+Result<WorldContents> contentsOf(const SceneDescription& scene, const std::filesystem::path& folder, Fracture* fracture,
+                                 WorldSurfaces* surfaces) {
+    return ContentsMaker(scene, folder, fracture, surfaces).all(nullptr);
+}
+
+Result<WorldContents> contentsOfBroken(const SceneDescription& scene, const FragmentSet& fragments, WorldSurfaces* surfaces) {
+    return ContentsMaker(scene, {}, nullptr, surfaces).all(&fragments);
 }
 
 Result<StepSettings> settingsOf(const SceneDescription& scene) {
@@ -278,11 +349,20 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.contact_damping = scene.step.contact_damping;
     s.push_out = scene.step.push_out;
     s.margin = scene.step.margin;
+    s.sleeping = hasEffect(scene, "sleeping");
     s.recycling = scene.step.recycling;
     s.fixed_axes = scene.step.axes == AxisKind::Fixed ? 26 : 0;
     if (scene.step.solver == SolverKind::Hard)
         return Error{ErrorCode::BadInput, "the scene asks for the hard solver, which there is not yet; leave step.solver out"};
     return s;
+}
+
+std::vector<std::string> effectsWithout(const SceneDescription& scene) {
+    static constexpr std::string_view kThere[] = {"gravity", "contacts", "friction", "restitution", "ccd", "sleeping"};
+    std::vector<std::string> without;
+    for (const std::string& effect : scene.effects)
+        if (std::ranges::find(kThere, effect) == std::end(kThere)) without.push_back(effect);
+    return without;
 }
 
 } // namespace brittle

@@ -8,6 +8,8 @@ namespace {
 constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
 constexpr double kSweepAhead = 1.25; // a body may be faster by the end of a step than it is now
 
+float sweptFor(const Step& s) { return static_cast<float>(kSweepAhead * s.settings.dt); }
+
 BroadPhase broadPhaseOf(const Step& s) {
     const StepBuffers& b = s.b.step;
     return {s.b.broad_phase, b.broad_phase, b.box_low, b.box_high, s.now.pairs};
@@ -17,8 +19,13 @@ BroadPhase broadPhaseOf(const Step& s) {
 void recordRecall(const Step& s) {
     const StepBuffers& b = s.b.step;
     const auto& r = s.record;
+    const Float3 g = toFloat(s.settings.gravity);
+    struct Push {
+        float gravity[4], speculative;
+        uint32_t recycling;
+    } push = {{g[0], g[1], g[2], sweptFor(s)}, static_cast<float>(s.settings.margin), s.settings.recycling ? 1u : 0u};
     s.record.run(
-        "recall_contacts", kPairs, uint32_t{s.settings.recycling ? 1u : 0u},
+        "recall_contacts", kPairs, push,
         {r.counts(), s.now.pairs, s.last.count, s.last.pairs, s.last.contacts, s.b.bodies, s.b.shapes, b.recalled, b.fresh});
     s.record.scan(kPairs, b.fresh, b.sums, b.fresh_slots,
                   {{COUNT_FRESH_PAIRS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
@@ -31,7 +38,7 @@ engine::Result<void> recordPoints(const Step& s) {
         s.b.hulls(), s.b.pieces, s.b.bodies, b.fresh_pairs, s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4), s.b.sizes.pairs};
     NarrowPhaseOptions options;
     options.speculative = static_cast<float>(s.settings.margin);
-    options.duration = static_cast<float>(kSweepAhead * s.settings.dt);
+    options.duration = sweptFor(s);
     options.gravity = toFloat(s.settings.gravity);
     options.fixed_axes = s.settings.fixed_axes;
     return recordNarrowPhase(s.record.commands(), s.kernels, input, options, {b.manifolds, b.axes, b.narrow_arguments},
@@ -43,9 +50,6 @@ void recordMemory(const Step& s) {
     s.record.run("remember_contacts", kPairs, engine::NoPush{},
                  {s.record.counts(), b.recalled, b.fresh_slots, b.manifolds, s.last.contacts, s.b.bodies, s.b.shapes,
                   s.now.contacts, b.touches});
-    s.record.scan(kPairs, b.touches, b.sums, b.contact_offsets,
-                  {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
-    s.record.compact(kPairs, b.contact_offsets, b.contact_pairs);
     s.record.commands().copy(s.record.counts().sub(4 * COUNT_BOX_PAIRS, 4), engine::BufferView(s.now.count).sub(0, 4));
 }
 
@@ -55,11 +59,15 @@ void recordBoxes(const Step& s) {
     struct Push {
         float gravity[4];
         float margin;
-        uint32_t pieces;
-    } push = {{0, 0, 0, static_cast<float>(s.settings.dt)}, static_cast<float>(s.settings.margin / 2), s.b.sizes.pieces};
+    } push = {{0, 0, 0, static_cast<float>(s.settings.dt)}, static_cast<float>(s.settings.margin / 2)};
     s.record.commands().beginLabel("boxes");
-    s.record.run("bound_pieces", Length::of(s.b.sizes.pieces), push,
-                 {s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});
+    const uint32_t sizes[] = {s.b.sizes.pieces, s.b.sizes.bodies};
+    s.record.runGroups("open_step", 1, sizes, {s.record.counts(), s.record.args(), s.b.steps});
+    s.record.run("begin_step", Length::counted(COUNT_BODIES), engine::NoPush{},
+                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins});
+    s.record.run(
+        "bound_pieces", Length::counted(COUNT_BOXES), push,
+        {s.record.counts(), s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});
     s.record.commands().endLabel();
 }
 

@@ -8,7 +8,7 @@
 namespace brittle {
 namespace {
 
-constexpr Length kContacts = {0, COUNT_CONTACTS};
+constexpr Length kContacts = {0, COUNT_CONTACTS}, kBodies = {0, COUNT_BODIES};
 
 // A soft constraint (Catto, "Soft Constraints", 2011): how fast overlap is pushed out, and the shares of mass and impulse.
 gpu::vec4 softness(double hertz, double damping, double h, double last) {
@@ -16,39 +16,57 @@ gpu::vec4 softness(double hertz, double damping, double h, double last) {
     return {static_cast<float>(omega / a1), static_cast<float>(a2 * a3), static_cast<float>(a3), static_cast<float>(last)};
 }
 
-void recordPass(const Step& s, gpu::SolverPush push, bool bounce) {
-    const StepBuffers& b = s.b.step;
-    const bool many = s.b.sizes.pairs > FEW_CONTACTS; // else one workgroup walks through all colors
-    for (uint32_t color = 0; many && color < WIDE_COLORS; color++) {
-        push.color = color;
-        s.record.run(bounce ? "bounce_contacts" : "solve_contacts", Length::counted(COUNT_FIRST_COLOR + color), push,
-                     {b.color_start, b.solver_contacts, b.solver_bodies});
-    }
+enum class Sweep : uint8_t { Push, Relax, Bounce };
+
+// What one workgroup walks through: all colors behind the wide ones, or, where there are few contacts, all.
+void recordRestOf(const Step& s, gpu::SolverPush push, Sweep sweep) {
     push.color = WIDE_COLORS;
-    s.record.runGroups(bounce ? "bounce_rest" : "solve_rest", 1, push,
-                       {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies});
+    const char* bounce = s.many_lanes ? "bounce_rest_wide" : "bounce_rest";
+    const char* solve = s.many_lanes ? "solve_rest_wide" : "solve_rest";
+    s.record.runGroups(sweep == Sweep::Bounce ? bounce : solve, s.record.groupsOf(COUNT_ONCE), push,
+                       {s.record.counts(), s.b.step.color_start, s.b.step.solver_contacts, s.b.step.solver_bodies});
+}
+
+void recordColor(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t color) {
+    push.color = color;
+    s.record.run(sweep == Sweep::Bounce ? "bounce_contacts" : "solve_contacts", Length::counted(COUNT_FIRST_COLOR + color),
+                 push, {s.b.step.color_start, s.b.step.solver_contacts, s.b.step.solver_bodies});
+}
+
+void recordPass(const Step& s, gpu::SolverPush push, Sweep sweep) {
+    const bool many = s.b.sizes.pairs > FEW_CONTACTS;
+    push.with_push = sweep == Sweep::Push ? 1 : 0;
+    for (uint32_t color = 0; many && color < WIDE_COLORS; color++)
+        recordColor(s, push, sweep, color);
+    recordRestOf(s, push, sweep);
 }
 
 void recordSubstep(const Step& s, gpu::SolverPush push) {
     const StepBuffers& b = s.b.step;
-    const Length bodies = Length::of(s.b.sizes.bodies);
-    s.record.run("push_bodies", bodies, push,
+    s.record.run("push_bodies", kBodies, push,
                  {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies});
-    push.with_push = 1;
-    recordPass(s, push, false);
-    s.record.run("move_bodies", bodies, push, {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
-    push.with_push = 0;
-    recordPass(s, push, false);
+    recordPass(s, push, Sweep::Push);
+    s.record.run("move_bodies", kBodies, push, {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
+    recordPass(s, push, Sweep::Relax);
 }
 
 bool bounces(const Step& s) { return s.settings.bounce_threshold < 1e6; }
+
+// Pairs that have contact points and are to be solved.
+void recordList(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
+    s.record.scan(kPairs, b.touches, b.sums, b.contact_offsets,
+                  {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
+    s.record.compact(kPairs, b.contact_offsets, b.contact_pairs);
+}
 
 void recordAdjacency(const Step& s) {
     const StepBuffers& b = s.b.step;
     s.record.clear({b.adjacency_counts, b.adjacency_cursors});
     s.record.run("count_adjacency", kContacts, engine::NoPush{},
                  {s.record.counts(), b.contact_pairs, s.now.contacts, b.solver_bodies, b.adjacency_counts});
-    s.record.scan(Length::of(s.b.sizes.bodies), b.adjacency_counts, b.sums, b.adjacency_start, {});
+    s.record.scan(kBodies, b.adjacency_counts, b.sums, b.adjacency_start, {});
     s.record.run("place_adjacency", kContacts, engine::NoPush{},
                  {s.record.counts(), b.contact_pairs, s.now.contacts, b.solver_bodies, b.adjacency_start, b.adjacency_cursors,
                   b.loose_adjacency});
@@ -67,7 +85,6 @@ gpu::SolverPush solverPush(const Step& s) {
                     static_cast<float>(h)};
     push.soft = softness(hertz, set.contact_damping, h, set.push_out);
     push.stiff = softness(2 * hertz, 0.5 * set.contact_damping, h, set.bounce_threshold);
-    push.bodies = s.b.sizes.bodies;
     return push;
 }
 
@@ -75,11 +92,10 @@ void recordColors(const Step& s) {
     const StepBuffers& b = s.b.step;
     const auto& counts = s.record.counts();
     s.record.commands().beginLabel("colors");
-    s.record.run("begin_step", Length::of(s.b.sizes.bodies), s.b.sizes.bodies,
-                 {s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
+    recordList(s);
     s.record.clear({b.body_colors});
     s.record.commands().fill(b.bids, NO_INDEX);
-    s.record.runGroups("color_contacts", 1, s.b.sizes.pairs,
+    s.record.runGroups("color_contacts", s.record.groupsOf(COUNT_ONCE), s.b.sizes.pairs,
                        {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
                         b.contact_slots, b.color_start, s.record.args()});
     recordAdjacency(s);
@@ -95,15 +111,16 @@ void recordSolve(const Step& s) {
         {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push);
-    if (bounces(s)) recordPass(s, push, true);
+    if (bounces(s)) recordPass(s, push, Sweep::Bounce);
     s.record.run("keep_impulses", kContacts, engine::NoPush{}, {s.record.counts(), b.solver_contacts, s.now.contacts});
     s.record.commands().endLabel();
 }
 
 void recordEnd(const Step& s) {
     s.record.commands().beginLabel("end");
-    s.record.run("end_step", Length::of(s.b.sizes.bodies), s.b.sizes.bodies,
+    s.record.run("end_step", kBodies, engine::NoPush{},
                  {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps});
+    recordRest(s);
     s.record.commands().endLabel();
 }
 

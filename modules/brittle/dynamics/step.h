@@ -19,8 +19,10 @@ struct Step {
 
 void recordBoxes(const Step& step);
 engine::Result<void> recordContacts(const Step& step); // pairs, points, and what is remembered of them
+void recordIslands(const Step& step);                  // where bodies may sleep
 void recordColors(const Step& step);
 void recordSolve(const Step& step);
+void recordRest(const Step& step); // where bodies may sleep
 void recordEnd(const Step& step);
 
 gpu::SolverPush solverPush(const Step& step);

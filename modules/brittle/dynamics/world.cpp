@@ -1,10 +1,12 @@
 #include "modules/brittle/dynamics/world.h"
 
+#include "modules/brittle/dynamics/body_order.h"
 #include "modules/brittle/dynamics/step.h"
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/upload.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -16,7 +18,7 @@ using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
 
-constexpr uint32_t kPairsPerPiece = 32, kLeastPairs = 1024;
+constexpr uint32_t kPairsPerPiece = 9, kLeastPairs = 1024; // as piles have them; there is more room made where it is needed
 constexpr uint32_t kManyLanes = 32; // in a subgroup, from which on a pair has more of them in the narrow phase
 
 Result<void> checkSettings(const StepSettings& s) {
@@ -29,6 +31,8 @@ Result<void> checkSettings(const StepSettings& s) {
         return refuse("contacts of that frequency or damping; give 0 to 1e4");
     if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
         return refuse("a push-out or bounce threshold that is negative or no number");
+    if (!(s.sleep_speed >= 0 && s.sleep_after >= 0))
+        return refuse("sleep below a speed or after a time that is negative or no number");
     if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
     return {};
 }
@@ -42,9 +46,10 @@ uint64_t hashOf(std::span<const std::byte> bytes) {
 
 class DeviceWorld : public World {
 public:
-    DeviceWorld(engine::Device& device, WorldBuffers buffers, const StepSettings& settings, uint32_t group_size)
-        : device_(device), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, group_size}}), b_(std::move(buffers)),
-          settings_(settings) {}
+    DeviceWorld(engine::Device& device, BodyOrder order, WorldContents contents, WorldBuffers buffers,
+                const StepSettings& settings, const WorldBudget& budget)
+        : device_(device), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, budget.group_size}}), order_(std::move(order)),
+          contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings), grows_(budget.pairs == 0) {}
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
@@ -60,30 +65,61 @@ public:
     }
 
     Result<void> step(uint32_t steps) override {
-        const uint64_t from = made_;
-        for (uint32_t k = 0; k < steps; k++)
-            if (auto done = submit((from + k) & 1); !done) return done;
-        return takeStock();
+        const uint64_t wanted = made_ + steps;
+        while (made_ < wanted) {
+            for (uint64_t k = made_; k < wanted; k++)
+                if (auto done = submit(k & 1); !done) return done;
+            auto words = takeStock();
+            if (!words) return words.error();
+            const uint32_t needed = (*words)[STATUS_NEEDED + COUNT_BOX_PAIRS];
+            const bool lacks_pairs = (*words)[STATUS_FAILED] != 0 && needed > b_.sizes.pairs;
+            const bool can_grow = grows_ && needed <= mostPairs(device_);
+            const auto mended = lacks_pairs && can_grow ? grow(needed) : failureOf(*words);
+            if (!mended) return mended;
+        }
+        return {};
     }
 
     Result<std::vector<gpu::BodyState>> bodies() override {
-        std::vector<gpu::BodyState> bodies(b_.sizes.bodies);
-        const Fetch wanted[] = {{b_.bodies, bodies.data(), bodies.size() * sizeof(gpu::BodyState)}};
-        if (auto read = fetch(device_, wanted); !read) return read.error();
-        return bodies;
+        auto states = readStates();
+        if (!states) return states;
+        std::vector<gpu::BodyState> as_added(states->size());
+        for (size_t k = 0; k < states->size(); k++)
+            as_added[order_.body_at[k]] = (*states)[k];
+        return as_added;
     }
 
     Result<WorldCounts> counts() override {
-        std::vector<uint32_t> words(STATUS_WORDS), colors(COLORS + 2);
+        std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLORS + 2);
         const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()},
+                                {b_.args, args.data(), 4 * args.size()},
                                 {b_.step.color_start, colors.data(), 4 * colors.size()}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         WorldCounts c = {b_.sizes.bodies, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS],
                          words[COUNT_FRESH_PAIRS]};
+        for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_ONCE; k++)
+            c.groups += args[9 * k] * args[9 * k + 1];
         for (uint32_t k = 0; k < COLORS; k++)
             if (colors[k + 1] != colors[k]) c.colors = k + 1;
+        c.awake = settings_.sleeping ? words[COUNT_AWAKE] : b_.movers;
         c.colorless = colors[NO_COLOR + 1] - colors[NO_COLOR];
         return c;
+    }
+
+    Result<std::vector<std::array<uint32_t, 2>>> pairs() override {
+        auto counted = counts();
+        if (!counted) return counted.error();
+        std::vector<std::array<uint32_t, 2>> pairs(counted->pairs);
+        if (pairs.empty()) return pairs;
+        const Fetch wanted[] = {
+            {BufferView(b_.memory[(made_ + 1) & 1].pairs).sub(0, 8 * pairs.size()), pairs.data(), 8 * pairs.size()}};
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        for (auto& pair : pairs) {
+            const uint32_t a = order_.piece_at[pair[0]], b = order_.piece_at[pair[1]];
+            pair = {std::min(a, b), std::max(a, b)};
+        }
+        std::ranges::sort(pairs);
+        return pairs;
     }
 
     Result<std::vector<engine::Timing>> timings() override { return commands_[(made_ + 1) & 1]->timings(); }
@@ -113,19 +149,16 @@ public:
             upload.add(state.subspan(at, view.size), view);
             at += view.size;
         }
-        auto staging = upload.stage(device_);
-        if (!staging) return staging.error();
-        engine::Commands commands(device_);
-        if (auto begun = commands.begin(); !begun) return begun;
-        upload.copy(commands, *staging);
-        if (auto done = commands.submitAndWait(); !done) return done;
-        return takeStock();
+        if (auto done = send(upload); !done) return done;
+        auto words = takeStock();
+        if (!words) return words.error();
+        return failureOf(*words);
     }
 
     Result<uint64_t> hash() override {
-        auto state = bodies();
-        if (!state) return state.error();
-        return hashOf(std::as_bytes(std::span(*state)));
+        const auto states = readStates();
+        if (!states) return states.error();
+        return hashOf(std::as_bytes(std::span(*states)));
     }
 
 private:
@@ -133,9 +166,9 @@ private:
         const Step step = {
             settings_, b_, b_.memory[1 - parity], b_.memory[parity], kernels_, record, device_.subgroupSize() >= kManyLanes};
         record.clear({BufferView(b_.counts).sub(0, 4 * STATUS_FAILED)});
-        record.commands().fill(BufferView(b_.counts).sub(4 * COUNT_BOXES, 4), b_.sizes.pieces);
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
+        recordIslands(step);
         recordColors(step);
         recordSolve(step);
         recordEnd(step);
@@ -149,14 +182,49 @@ private:
         return commands.wait();
     }
 
-    // How many steps the device has made, and why not more.
-    Result<void> takeStock() {
+    // In the order that the device has them in.
+    Result<std::vector<gpu::BodyState>> readStates() {
+        std::vector<gpu::BodyState> states(b_.sizes.bodies);
+        const Fetch wanted[] = {{b_.bodies, states.data(), states.size() * sizeof(gpu::BodyState)}};
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        return states;
+    }
+
+    Result<void> send(Upload& upload) {
+        auto staging = upload.stage(device_);
+        if (!staging) return staging.error();
+        engine::Commands commands(device_);
+        if (auto begun = commands.begin(); !begun) return begun;
+        upload.copy(commands, *staging);
+        return commands.submitAndWait();
+    }
+
+    // Room for more pairs than that, and everything as it was.
+    Result<void> grow(uint32_t needed) {
+        const auto saved = save();
+        if (!saved) return saved.error();
+        const std::vector<BufferView> was = stateViews();
+        const uint32_t room = std::min(needed + needed / 2, mostPairs(device_));
+        auto larger = makeWorldBuffers(device_, contents_, room, settings_.sleeping);
+        if (!larger) return larger.error();
+        std::swap(b_, *larger);
+        Upload upload;
+        const std::vector<BufferView> now = stateViews();
+        for (size_t k = 0, at = 0; k < was.size(); at += was[k].size, k++)
+            upload.add(std::span(*saved).subspan(at, was[k].size), now[k].sub(0, was[k].size));
+        if (auto done = send(upload); !done) return done;
+        submitted_[0] = submitted_[1] = false;
+        return record();
+    }
+
+    // How many steps the device has made; the counts of the last.
+    Result<std::vector<uint32_t>> takeStock() {
         std::vector<uint32_t> words(STATUS_WORDS);
         uint32_t steps = 0;
         const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {BufferView(b_.steps).sub(0, 4), &steps, 4}};
-        if (auto read = fetch(device_, wanted); !read) return read;
+        if (auto read = fetch(device_, wanted); !read) return read.error();
         made_ = steps;
-        return failureOf(words);
+        return words;
     }
 
     Result<void> failureOf(const std::vector<uint32_t>& words) const {
@@ -165,7 +233,9 @@ private:
         if (needed > b_.sizes.pairs)
             return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " finds " + std::to_string(needed) +
                                                   " pairs of pieces near each other, there is room for " +
-                                                  std::to_string(b_.sizes.pairs) + "; raise the budget of pairs"};
+                                                  std::to_string(b_.sizes.pairs) +
+                                                  (grows_ ? ", the most of this device; use fewer pieces or spread them out"
+                                                          : "; raise the budget of pairs")};
         return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " failed with status " +
                                               std::to_string(words[STATUS_FAILED]) + ": a piece is near too many others"};
     }
@@ -186,8 +256,11 @@ private:
 
     engine::Device& device_;
     engine::KernelLibrary kernels_;
+    BodyOrder order_;
+    WorldContents contents_; // in that order, to be made anew with more room
     WorldBuffers b_;
     StepSettings settings_;
+    bool grows_;
     std::unique_ptr<engine::Commands> commands_[2];
     bool submitted_[2] = {false, false};
     uint64_t made_ = 0;
@@ -201,10 +274,15 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     const uint32_t group_size = budget.group_size == 0 ? GROUP_SIZE : budget.group_size;
     if (auto sound = checkGroupSize(group_size, device.limits()); !sound) return sound.error();
     if (contents.bodies.empty()) return Error{ErrorCode::BadInput, "a world without bodies; add at least one"};
-    const uint64_t chosen = std::max<uint64_t>(kLeastPairs, uint64_t{kPairsPerPiece} * contents.pieces.size());
-    auto buffers = makeWorldBuffers(device, contents, budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(chosen));
+    const uint64_t chosen =
+        std::max<uint64_t>({kLeastPairs, uint64_t{kPairsPerPiece} * contents.pieces.size(), 2 * contents.siblings.size()});
+    BodyOrder order = orderById(contents);
+    WorldContents sorted = inOrder(contents, order);
+    const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
+    auto buffers = makeWorldBuffers(device, sorted, room, settings.sleeping);
     if (!buffers) return buffers.error();
-    auto world = std::make_unique<DeviceWorld>(device, std::move(*buffers), settings, group_size);
+    auto world = std::make_unique<DeviceWorld>(device, std::move(order), std::move(sorted), std::move(*buffers), settings,
+                                               WorldBudget{budget.pairs, group_size});
     if (auto recorded = world->record(); !recorded) return recorded.error();
     return std::unique_ptr<World>(std::move(world));
 }

@@ -8,6 +8,7 @@
 #include "engine/device.h"
 #include "modules/brittle/dynamics/world_contents.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -25,10 +26,14 @@ struct StepSettings {
     double margin = 0.02;        // m: points that are still so far apart are contacts already
     double bounce_threshold = 1; // m/s: what comes in slower does not bounce
     uint32_t fixed_axes = 0;     // of the narrow phase; 0: all axes of both hulls
+    bool sleeping = false;       // islands that have come to rest are not solved
+    double sleep_speed = 0.05;   // m/s: what moves and turns less in a step, rests; for a body of less than half a meter, a
+                                 // tenth of its radius a second
+    double sleep_after = 0.5;    // s of rest
     bool recycling = true;       // points are kept while bodies hardly move against each other
 };
 
-// How much there is room for; what is 0 is chosen by the contents.
+// How much there is room for; what is 0 is chosen by the contents, and grows when it is too small.
 struct WorldBudget {
     uint32_t pairs = 0;
     uint32_t group_size =
@@ -38,6 +43,8 @@ struct WorldBudget {
 struct WorldCounts {
     uint32_t bodies = 0, pieces = 0, pairs = 0, contacts = 0;
     uint32_t fresh = 0;     // pairs whose points were found anew
+    uint32_t awake = 0;     // bodies that move and do not sleep
+    uint32_t groups = 0;    // workgroups that bodies, pairs, contacts and colors were dispatched over; none while all sleep
     uint32_t colors = 0;    // in use
     uint32_t colorless = 0; // contacts for which there was no color left; they are solved one by one
 };
@@ -49,11 +56,14 @@ public:
                                                          const StepSettings& settings = {}, const WorldBudget& budget = {});
     virtual ~World() = default;
 
-    // Steps and waits. Errors: Capacity, with the pool and what it lacked: the step that did not fit has not been made.
+    // Steps and waits. Errors: Capacity, with the pool and what it lacked, where the budget says how large it is or the device
+    // can bind no more: the step that did not fit has not been made.
     virtual engine::Result<void> step(uint32_t steps = 1) = 0;
 
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;
     virtual engine::Result<WorldCounts> counts() = 0; // of the last step
+    // Pieces whose boxes met in the last step, the lower one first, in order. None while all sleep.
+    virtual engine::Result<std::vector<std::array<uint32_t, 2>>> pairs() = 0;
     // Of the last step, by stage, and how many dispatches it has.
     virtual engine::Result<std::vector<engine::Timing>> timings() = 0;
     virtual uint32_t dispatches() const = 0;
@@ -61,7 +71,7 @@ public:
     // All that the next step depends on, as bytes; to be restored into a world of the same contents, settings and budget.
     virtual engine::Result<std::vector<std::byte>> save() = 0;
     virtual engine::Result<void> restore(std::span<const std::byte> state) = 0;
-    // Of the bytes of all bodies.
+    // Of the bytes of all bodies, in the order of their ids.
     virtual engine::Result<uint64_t> hash() = 0;
 };
 

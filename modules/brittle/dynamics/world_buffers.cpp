@@ -1,8 +1,10 @@
 #include "modules/brittle/dynamics/world_buffers.h"
 
+#include "modules/brittle/dynamics/sibling_contacts.h"
 #include "modules/brittle/fracture/upload.h"
 #include "shaders-spirv/shared/narrow_phase.h"
 
+#include <algorithm>
 #include <string>
 
 namespace brittle {
@@ -65,6 +67,8 @@ StepBuffers layOutStep(engine::ScratchArena& arena, const WorldSizes& n) {
     s.solver_bodies = take(n.bodies, sizeof(gpu::SolverBody));
     s.spins = take(n.bodies, 16);
     s.solver_contacts = take(n.pairs, sizeof(gpu::SolverContact));
+    for (BufferView* view : {&s.parents, &s.islands, &s.rests})
+        *view = take(n.sleeping ? n.bodies : 0, 4);
     s.body_colors = take(n.bodies, 8);
     s.bids = take(n.bodies, 4);
     s.waiting = take(n.pairs, 8);
@@ -126,6 +130,12 @@ Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b)
     upload.add(std::span(c.pieces), b.pieces);
     upload.add(std::span(c.bodies), b.bodies);
     upload.add(std::span(c.shapes), b.shapes);
+    const FirstContacts first = firstContacts(c);
+    const auto count = static_cast<uint32_t>(std::min<size_t>(first.pairs.size(), b.sizes.pairs));
+    const PairMemory& before = b.memory[1]; // that the first step looks back at
+    upload.add(std::span(first.pairs).first(count), before.pairs);
+    upload.add(std::span(first.contacts).first(count), before.contacts);
+    upload.add(std::span(&count, 1), before.count);
     auto staging = upload.stage(device);
     if (!staging) return staging.error();
     engine::Commands commands(device);
@@ -140,10 +150,20 @@ Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b)
 
 } // namespace
 
-Result<WorldBuffers> makeWorldBuffers(Device& device, const WorldContents& contents, uint32_t pairs) {
+uint32_t mostPairs(const Device& device) {
+    constexpr uint64_t kLargest = std::max({sizeof(gpu::SolverContact), sizeof(gpu::ContactMemory), sizeof(gpu::Manifold)});
+    return static_cast<uint32_t>(std::min<uint64_t>(device.limits().maxStorageBufferRange / kLargest, UINT32_MAX / 4));
+}
+
+Result<WorldBuffers> makeWorldBuffers(Device& device, const WorldContents& contents, uint32_t pairs, bool sleeping) {
+    if (const uint32_t most = mostPairs(device); pairs > most)
+        return Error{ErrorCode::Capacity, "a budget of " + std::to_string(pairs) + " pairs, the device has room for " +
+                                              std::to_string(most) + "; use fewer pieces or a smaller budget"};
     WorldBuffers b;
-    b.sizes = {static_cast<uint32_t>(contents.bodies.size()), static_cast<uint32_t>(contents.pieces.size()), pairs};
+    b.sizes = {static_cast<uint32_t>(contents.bodies.size()), static_cast<uint32_t>(contents.pieces.size()), pairs, sleeping};
     b.broad_phase = {b.sizes.pieces, pairs, chosenSort(b.sizes.pieces, device.isCpu())};
+    b.movers =
+        static_cast<uint32_t>(std::ranges::count_if(contents.bodies, [](const auto& body) { return body.offset.w != 0; }));
     Maker maker(device);
     makeLasting(maker, contents, b);
     if (auto made = maker.status(); !made) return made.error();

@@ -16,6 +16,7 @@ namespace brittle {
 
 struct WorldSizes {
     uint32_t bodies = 0, pieces = 0, pairs = 0;
+    bool sleeping = false;
 };
 
 // What a step makes and the next one reads; two of them take turns.
@@ -27,7 +28,8 @@ struct PairMemory {
 struct StepBuffers {
     engine::BufferView box_low, box_high, recalled, fresh, fresh_slots, sums, fresh_pairs, manifolds, axes, narrow_arguments,
         touches, contact_offsets, contact_pairs, contact_slots, solver_bodies, spins, solver_contacts, body_colors, bids,
-        waiting, color_start, adjacency_counts, adjacency_start, adjacency_cursors, loose_adjacency, adjacency;
+        waiting, color_start, parents, islands, rests, adjacency_counts, adjacency_start, adjacency_cursors, loose_adjacency,
+        adjacency;
     BroadPhaseScratch broad_phase;
 };
 
@@ -35,17 +37,23 @@ struct WorldBuffers {
     engine::Buffer hull_records, hull_vertices, hull_faces, hull_corners, hull_edges;
     engine::Buffer pieces, bodies, shapes;
     engine::Buffer counts, args; // as a fracture event's (shared/fracture.h), indices in shared/solver.h
-    engine::Buffer steps;        // one word: how many steps have been made
+    engine::Buffer steps;        // shared/solver.h, STEPS_*
     std::array<PairMemory, 2> memory;
     std::unique_ptr<engine::ScratchArena> arena;
     StepBuffers step;
     WorldSizes sizes;
+    uint32_t movers = 0; // bodies that are not fixed
     BroadPhaseBudget broad_phase;
 
     HullPools hulls() const { return {hull_records, hull_vertices, hull_faces, hull_corners, hull_edges}; }
 };
 
-// Fills what the contents say and clears the rest. Errors: Capacity, with the list that the device cannot bind; Device.
-engine::Result<WorldBuffers> makeWorldBuffers(engine::Device& device, const WorldContents& contents, uint32_t pairs);
+// The most pairs there can be room for: all of what the solver knows of them is bound at once.
+uint32_t mostPairs(const engine::Device& device);
+
+// Fills what the contents say and clears the rest; pairs: at most mostPairs. Errors: Capacity, with the list that the device
+// cannot bind; Device.
+engine::Result<WorldBuffers> makeWorldBuffers(engine::Device& device, const WorldContents& contents, uint32_t pairs,
+                                              bool sleeping);
 
 } // namespace brittle

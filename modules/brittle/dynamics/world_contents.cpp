@@ -106,6 +106,7 @@ gpu::BodyState stateOf(const BodyDefinition& body, const Principal& principal) {
     return state;
 }
 
+// Places or directions.
 std::vector<Float3> alongAxes(const std::vector<Float3>& vertices, const Principal& principal) {
     if (principal.axes.isApprox(Eigen::Quaterniond::Identity(), 0)) return vertices;
     std::vector<Float3> own;
@@ -154,13 +155,19 @@ gpu::BodyShape shapeOf(const BodyDefinition& body, const Principal& principal, u
 
 } // namespace
 
+Turn axesOf(const BodyDefinition& body) {
+    const Eigen::Quaterniond axes = principalOf(body).axes;
+    return {axes.x(), axes.y(), axes.z(), axes.w()};
+}
+
 Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body) {
     if (auto sound = check(body); !sound) return sound.error();
     const auto index = static_cast<uint32_t>(contents.bodies.size()), first = static_cast<uint32_t>(contents.pieces.size());
     const HullSizes before = sizesOf(contents.hulls);
     const Principal principal = principalOf(body);
     for (const PieceShape& piece : body.pieces) {
-        const auto hull = addHull(contents.hulls, alongAxes(piece.vertices, principal), piece.loops);
+        const auto hull =
+            addHull(contents.hulls, alongAxes(piece.vertices, principal), piece.loops, alongAxes(piece.normals, principal));
         if (!hull) {
             cutBack(contents.hulls, before);
             contents.pieces.resize(first);
@@ -170,6 +177,7 @@ Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body) {
     }
     contents.bodies.push_back(stateOf(body, principal));
     contents.shapes.push_back(shapeOf(body, principal, first));
+    contents.ids.push_back(body.id);
     return index;
 }
 

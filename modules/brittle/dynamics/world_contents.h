@@ -17,12 +17,14 @@ namespace brittle {
 struct PieceShape {
     std::vector<Float3> vertices;
     std::vector<std::vector<uint32_t>> loops;
+    std::vector<Float3> normals; // of the faces, outward, unit, where they are known; else they follow from the loops
 };
 
 using Turn = std::array<double, 4>; // a quaternion x, y, z, w of any length but 0: own frame to world
 
 struct BodyDefinition {
     std::string name; // for messages
+    uint64_t id = 0;  // a world is the same, bit for bit, in whatever order its bodies are added, if these are all different
     std::vector<PieceShape> pieces;
     Double3 place = {0, 0, 0}; // of the center of mass
     Turn turn = {0, 0, 0, 1};
@@ -34,16 +36,29 @@ struct BodyDefinition {
     double restitution = 0;
 };
 
+// Two pieces that are known to touch before the first step, without a gap.
+struct SiblingContact {
+    uint32_t piece_a = 0, piece_b = 0;
+    Double3 normal = {0, 0, 0};  // from A to B, world, unit
+    std::vector<Double3> points; // world, one to four
+};
+
 struct WorldContents {
     HullSet hulls;
     std::vector<gpu::PieceRecord> pieces;
     std::vector<gpu::BodyState> bodies;
     std::vector<gpu::BodyShape> shapes;
+    std::vector<uint64_t> ids;            // of bodies
+    std::vector<SiblingContact> siblings; // a pair once, of different bodies
 };
 
 // Adds a body and returns its index. Where it fails the contents are as they were. Errors, with the body's name: BadInput for
 // numbers that are none, places beyond 1e6 m, speeds beyond 1e4 m/s, a negative mass, an inertia that is not that of a solid,
 // a turn of length 0, no pieces, pieces that are not convex solids (dynamics/hull_set.h); Capacity.
 engine::Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body);
+
+// Its principal axes, as a turn from them into the frame it is described in: what a body's turn in the world begins with is
+// `body.turn` after this.
+Turn axesOf(const BodyDefinition& body);
 
 } // namespace brittle

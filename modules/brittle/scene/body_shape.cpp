@@ -1,8 +1,7 @@
 #include "modules/brittle/scene/body_shape.h"
 
-#include "modules/brittle/mesh/import.h"
-#include "modules/brittle/mesh/primitives.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "modules/brittle/scene/shape_model.h"
 
 #include <numbers>
 
@@ -16,22 +15,11 @@ std::vector<Double3> boxPoints(const Double3& size) {
     return points;
 }
 
-engine::Result<std::vector<Double3>> modelPoints(const ShapeDescription& shape, const std::filesystem::path& folder) {
-    constexpr std::string_view kBuiltin = "builtin:";
-    const std::string_view file = shape.file;
-    auto model = file.starts_with(kBuiltin) ? makeBuiltin(file.substr(kBuiltin.size())) : importMesh(folder / shape.file);
-    if (!model) return model.error();
-    for (Double3& p : model->positions)
-        for (size_t c = 0; c < 3; ++c)
-            p[c] *= shape.scale[c];
-    return std::move(model->positions);
-}
-
 engine::Result<PointHull> hullOfHull(const ShapeDescription& shape, const std::filesystem::path& folder) {
     if (shape.file.empty()) return hullOfPoints(shape.points);
-    const auto points = modelPoints(shape, folder);
-    if (!points) return points.error();
-    auto hull = hullOfPoints(*points);
+    const auto model = readModel(shape, folder);
+    if (!model) return model.error();
+    auto hull = hullOfPoints(model->positions);
     if (!hull) return engine::Error{hull.error().code, shape.file + ": " + hull.error().message};
     return hull;
 }

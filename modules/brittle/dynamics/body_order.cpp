@@ -1,0 +1,43 @@
+#include "modules/brittle/dynamics/body_order.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace brittle {
+
+BodyOrder orderById(const WorldContents& contents) {
+    BodyOrder order;
+    order.body_at.resize(contents.bodies.size());
+    std::iota(order.body_at.begin(), order.body_at.end(), 0);
+    std::ranges::stable_sort(order.body_at, {}, [&](uint32_t body) { return contents.ids[body]; });
+    for (const uint32_t body : order.body_at)
+        for (uint32_t k = 0; k < contents.shapes[body].pieces.y; k++)
+            order.piece_at.push_back(contents.shapes[body].pieces.x + k);
+    return order;
+}
+
+WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
+    WorldContents sorted;
+    sorted.hulls = contents.hulls;
+    sorted.siblings = contents.siblings;
+    std::vector<uint32_t> piece_now(contents.pieces.size());
+    for (uint32_t k = 0; k < order.piece_at.size(); k++)
+        piece_now[order.piece_at[k]] = k;
+    for (SiblingContact& s : sorted.siblings) {
+        s.piece_a = piece_now[s.piece_a];
+        s.piece_b = piece_now[s.piece_b];
+    }
+    for (const uint32_t body : order.body_at) {
+        gpu::BodyShape shape = contents.shapes[body];
+        const auto first = static_cast<uint32_t>(sorted.pieces.size()), index = static_cast<uint32_t>(sorted.bodies.size());
+        for (uint32_t k = 0; k < shape.pieces.y; k++)
+            sorted.pieces.push_back({{contents.pieces[shape.pieces.x + k].ids.x, index, 0, 0}});
+        shape.pieces.x = first;
+        sorted.shapes.push_back(shape);
+        sorted.bodies.push_back(contents.bodies[body]);
+        sorted.ids.push_back(contents.ids[body]);
+    }
+    return sorted;
+}
+
+} // namespace brittle

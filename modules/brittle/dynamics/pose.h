@@ -1,0 +1,30 @@
+// Where bodies are, in double precision, for what is made of a world's states on the host.
+#pragma once
+
+#include "modules/brittle/dynamics/world_contents.h"
+
+#include <span>
+
+namespace brittle {
+
+// From the frame that has been turned to the one outside, and back. `turn` of any length but 0.
+Double3 turnedBy(const Turn& turn, const Double3& v);
+Double3 turnedBack(const Turn& turn, const Double3& v);
+
+struct Pose {
+    Double3 place = {0, 0, 0}; // of the center of mass
+    Turn turn = {0, 0, 0, 1};  // unit
+};
+
+Pose poseOf(const gpu::BodyState& body);
+// On the way from `a` (share 0) to `b` (share 1): straight on, and turning evenly by the shorter way.
+Pose between(const Pose& a, const Pose& b, double share);
+
+// J, of all that moves and turns.
+double kineticEnergyOf(std::span<const gpu::BodyState> bodies);
+
+// What floats are best counted from: the middle of what moves, in steps of 1024 m, so the origin itself for all that is near
+// it.
+Double3 originOf(std::span<const gpu::BodyState> bodies);
+
+} // namespace brittle

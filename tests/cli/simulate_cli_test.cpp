@@ -1,0 +1,246 @@
+// brittle simulate as its users meet it: the same numbers every time, files that hold what the world did, nothing left where
+// something is wrong.
+#include "tests/reference/motion_file.h"
+#include "tests/support/folder_test.h"
+#include "tests/support/process.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace {
+
+using support::fileBytes;
+using support::Outcome;
+using support::runProgram;
+
+constexpr size_t kFilmWidth = 160, kFilmHeight = 90;
+
+class SimulateCli : public support::FolderTest {
+protected:
+    std::set<std::string> files() const {
+        std::set<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(folder()))
+            names.insert(entry.path().filename().string());
+        return names;
+    }
+    static Outcome simulate(std::vector<std::string> arguments, const std::vector<std::string>& environment = {}) {
+        arguments.insert(arguments.begin(), "simulate");
+        return runProgram("brittle", arguments, environment);
+    }
+    static void expectRefused(const Outcome& run, int exit_code, const std::string& holds) {
+        EXPECT_EQ(run.exit_code, exit_code) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_NE(run.err.find(holds), std::string::npos) << run.err;
+        EXPECT_TRUE(run.out.empty()) << run.out;
+    }
+    // A box that falls, seen in small pictures.
+    std::string smallScene() const {
+        std::ofstream(path("small.toml")) << "name = \"small\"\n[camera]\nwidth = " << kFilmWidth
+                                          << "\nheight = " << kFilmHeight
+                                          << "\n[[body]]\nname = \"box\"\nplace = [0, 1.5, 0]\nspin = [1, 2, 3]\n"
+                                             "[[collider]]\nname = \"ground\"\n";
+        return path("small.toml");
+    }
+    // A program that is found as ffmpeg.
+    std::string fakeFfmpeg(const std::string& script) const {
+        std::filesystem::create_directories(folder() / "bin");
+        const std::string name = path("bin/ffmpeg");
+        std::ofstream(name) << "#!/bin/sh\n" << script << "\n";
+        std::filesystem::permissions(name, std::filesystem::perms::owner_all);
+        return "PATH=" + path("bin");
+    }
+};
+
+bool isHash(const std::string& line) {
+    return line.size() == 17 && line[16] == '\n' &&
+           std::all_of(line.begin(), line.end() - 1, [](unsigned char c) { return std::isxdigit(c) && !std::isupper(c); });
+}
+
+TEST_F(SimulateCli, TheHashIsTheSameWhateverTheThreadsAndWorkgroups) {
+    const auto hash = [&](std::vector<std::string> more, const std::vector<std::string>& environment) {
+        more.insert(more.begin(), {"hull_pile_100", "--state-hash"});
+        if (std::ranges::find(more, "--seconds") == more.end()) more.insert(more.end(), {"--seconds", "0.5"});
+        const Outcome run = simulate(more, environment);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return run.out;
+    };
+    const std::string usual = hash({}, {});
+    EXPECT_TRUE(isHash(usual)) << usual;
+    EXPECT_EQ(hash({}, {}), usual);
+    EXPECT_EQ(hash({"--group-size", "16"}, {}), usual);
+    EXPECT_EQ(hash({}, {"LP_NUM_THREADS=1"}), usual);
+    EXPECT_EQ(hash({"-o", path("pile.glb"), "--fps", "7"}, {}), usual); // looking at it changes nothing
+    EXPECT_NE(hash({"--seconds", "0.4"}, {}), usual);
+}
+
+TEST_F(SimulateCli, ReportsWhatItDid) {
+    const Outcome run = simulate({"card_house", "--seconds", "0.2", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    support::SceneRun expected("card_house");
+    expected.step(report["steps"].get<uint32_t>());
+    EXPECT_EQ(report["scene"], "card_house");
+    EXPECT_EQ(report["steps"], std::lround(0.2 / expected.scene().step.dt));
+    EXPECT_EQ(report["bodies"], expected.bodyCount());
+    EXPECT_EQ(report["frames"], 0);
+    EXPECT_NEAR(report["kinetic_energy"].get<double>(), expected.kineticEnergy(), 1e-9 + 1e-6 * expected.kineticEnergy());
+    EXPECT_GT(report["pairs"].get<int>(), 15);
+    EXPECT_GT(report["contacts"].get<int>(), 15);
+    EXPECT_GT(report["dispatches_per_step"].get<int>(), 10);
+    EXPECT_GT(report["ms_per_step"]["median"].get<double>(), 0);
+    EXPECT_LE(report["ms_per_step"]["median"], report["ms_per_step"]["p99"]);
+    double shares = 0;
+    for (const auto& [stage, share] : report["stages"].items())
+        shares += share.get<double>();
+    EXPECT_NEAR(shares, 1, 1e-9);
+    char hash[17];
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(*expected.world().hash()));
+    EXPECT_EQ(report["state_hash"], hash);
+}
+
+TEST_F(SimulateCli, TheAnimationIsWhatTheWorldDid) {
+    const Outcome run = simulate({"card_house", "-o", path("house.glb"), "--seconds", "0.5"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const reference::MotionFile file = reference::readMotionFile(path("house.glb"));
+    EXPECT_TRUE(file.faults.empty()) << file.faults.front();
+    support::SceneRun expected("card_house");
+    ASSERT_EQ(file.bodies.size(), expected.bodyCount());
+    const auto expectKeys = [&](size_t key) {
+        for (size_t b = 0; b < file.bodies.size(); ++b)
+            for (size_t k = 0; k < 3; ++k)
+                EXPECT_NEAR(file.origin[k] + file.bodies[b].places[key][k], expected.place(b)[k], 1e-6) << b << " at " << key;
+    };
+    expectKeys(0);
+    expected.step(static_cast<uint32_t>(std::lround(0.5 / expected.scene().step.dt)));
+    expectKeys(file.times.size() - 1);
+    EXPECT_NEAR(file.times.back(), 0.5, 1e-6);
+    EXPECT_FALSE(file.body("ground").moves);
+}
+
+TEST_F(SimulateCli, FramesBetweenStepsLieBetweenTheirStates) {
+    const Outcome run = simulate({smallScene(), "-o", path("a.glb"), "--seconds", "0.1", "--fps", "60"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    ASSERT_EQ(simulate({smallScene(), "-o", path("b.glb"), "--seconds", "0.1", "--fps", "45"}).exit_code, 0);
+    const reference::MotionFile steps = reference::readMotionFile(path("a.glb")),
+                                frames = reference::readMotionFile(path("b.glb"));
+    ASSERT_EQ(steps.times.size(), 7u);
+    ASSERT_EQ(frames.times.size(), 6u); // five on the way, and the last moment
+    EXPECT_NEAR(frames.times.back(), 0.1, 1e-6);
+    for (size_t k = 0; k < 5; ++k) {
+        EXPECT_NEAR(frames.times[k], static_cast<double>(k) / 45, 1e-6);
+        const double at = static_cast<double>(k) * 60 / 45;
+        const auto before = static_cast<size_t>(at);
+        const double share = at - static_cast<double>(before);
+        const reference::Point a = steps.body("box").places[before], b = steps.body("box").places[before + 1];
+        EXPECT_NEAR(frames.body("box").places[k][1], (1 - share) * a[1] + share * b[1], 1e-6) << k;
+    }
+    EXPECT_EQ(frames.body("box").places.back(), steps.body("box").places.back());
+}
+
+TEST_F(SimulateCli, TheSameFileTwice) {
+    for (const char* name : {"a.glb", "b.glb"})
+        ASSERT_EQ(simulate({"stack_10", "-o", path(name), "--seconds", "0.2"}).exit_code, 0);
+    EXPECT_TRUE(fileBytes(path("a.glb")) == fileBytes(path("b.glb")));
+}
+
+TEST_F(SimulateCli, PicturesOfTheLastMomentOrOfEveryFrame) {
+    ASSERT_EQ(simulate({smallScene(), "-o", path("last.png"), "--seconds", "0.2"}).exit_code, 0);
+    ASSERT_EQ(simulate({smallScene(), "-o", path("fall_%03d.png"), "--seconds", "0.2", "--fps", "10"}).exit_code, 0);
+    EXPECT_EQ(files(), (std::set<std::string>{"small.toml", "last.png", "fall_000.png", "fall_001.png", "fall_002.png"}));
+    EXPECT_EQ(fileBytes(path("last.png")).substr(1, 3), "PNG");
+    EXPECT_TRUE(fileBytes(path("fall_002.png")) == fileBytes(path("last.png")));
+    EXPECT_FALSE(fileBytes(path("fall_000.png")) == fileBytes(path("last.png")));
+}
+
+TEST_F(SimulateCli, FilmsAreGivenEveryFrameWhole) {
+    const std::string path_setting = fakeFfmpeg("for last; do :; done; /bin/cat > \"${last#file:}\"");
+    const Outcome run = simulate({smallScene(), "-o", path("fall.mp4"), "--seconds", "0.2", "--fps", "20"}, {path_setting});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string film = fileBytes(path("fall.mp4"));
+    const size_t frame = 3 * kFilmWidth * kFilmHeight;
+    ASSERT_EQ(film.size(), 5 * frame);
+    EXPECT_FALSE(film.substr(0, frame) == film.substr(4 * frame));
+    EXPECT_EQ(files(), (std::set<std::string>{"small.toml", "bin", "fall.mp4"}));
+}
+
+TEST_F(SimulateCli, FilmsOpenInPlayers) {
+    if (std::system("command -v ffmpeg ffprobe >/dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
+    ASSERT_EQ(simulate({smallScene(), "-o", path("fall.mp4"), "--seconds", "0.2", "--fps", "20"}).exit_code, 0);
+    const std::string probe = "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,width,height -of csv=p=0 '" +
+                              path("fall.mp4") + "' > '" + path("probe.txt") + "'";
+    ASSERT_EQ(std::system(probe.c_str()), 0);
+    EXPECT_EQ(fileBytes(path("probe.txt")), "160,90,5\n");
+}
+
+TEST_F(SimulateCli, AFilmWithoutFfmpegNamesThePackage) {
+    expectRefused(simulate({smallScene(), "-o", path("fall.mp4")}, {"PATH=" + path("nothing")}), 2,
+                  "install the package ffmpeg");
+    expectRefused(simulate({smallScene(), "-o", path("fall.mp4")}, {"PATH="}), 2, "install the package ffmpeg");
+    EXPECT_EQ(files(), (std::set<std::string>{"small.toml"}));
+}
+
+TEST_F(SimulateCli, AFilmThatFailsLeavesNothingBehind) {
+    expectRefused(simulate({smallScene(), "-o", path("fall.mp4")}, {fakeFfmpeg("echo no room left >&2; exit 1")}), 2,
+                  "no room left");
+    expectRefused(
+        simulate({smallScene(), "-o", path("fall.mp4"), "--seconds", "0.1"}, {fakeFfmpeg("/bin/cat >/dev/null; exit 3")}), 2,
+        "status 3");
+    expectRefused(simulate({smallScene(), "-o", path("fall.mp4")}, {fakeFfmpeg("kill -9 $$")}), 2, "signal 9");
+    EXPECT_EQ(files(), (std::set<std::string>{"small.toml", "bin"}));
+}
+
+TEST_F(SimulateCli, HasToBeAskedForSomething) { expectRefused(simulate({"stack_10"}), 2, "give -o, --json or --state-hash"); }
+
+TEST_F(SimulateCli, RefusesWhatIsWrongInOneLine) {
+    expectRefused(simulate({"card_hous", "--json"}), 2, "did you mean 'card_house'?");
+    expectRefused(simulate({path("none.toml"), "--json"}), 2, "no such file");
+    expectRefused(simulate({"stack_10", "-o", path("a.mp5")}), 2, ".glb, .png and .mp4");
+    expectRefused(simulate({"stack_10", "-o", path("no/folder.glb")}), 2, "cannot be written");
+    expectRefused(simulate({"stack_10", "-o", path("no/folder()%d.png")}), 2, "cannot be written");
+    expectRefused(simulate({"stack_10", "-o", path("a.glb"), "--seconds", "nan"}), 2, "--seconds");
+    expectRefused(simulate({"stack_10", "-o", path("a.glb"), "--fps", "0"}), 2, "--fps");
+    expectRefused(simulate({"stack_10", "-o", path("a.glb"), "--seconds", "1e4", "--fps", "1000"}), 2, "a million frames");
+    expectRefused(simulate({"stack_10", "--json", "--seconds", "1e9"}), 2, "--seconds");
+    std::ofstream(path("bad.toml")) << "[[body]]\nplace = [0, nan, 0]\n";
+    expectRefused(simulate({path("bad.toml"), "-o", path("a.glb")}), 2, "bad.toml:2");
+    std::ofstream(path("hard.toml")) << "[step]\nsolver = \"hard\"\n[[body]]\n";
+    expectRefused(simulate({path("hard.toml"), "-o", path("a.glb")}), 2, "hard solver");
+    EXPECT_EQ(files(), (std::set<std::string>{"bad.toml", "hard.toml"}));
+}
+
+TEST_F(SimulateCli, DoesNotWriteOverWhatItReads) {
+    std::filesystem::create_symlink(smallScene(), path("link.glb"));
+    const std::string before = fileBytes(path("small.toml"));
+    expectRefused(simulate({path("small.toml"), "-o", path("link.glb")}), 2, "would be overwritten");
+    EXPECT_EQ(fileBytes(path("small.toml")), before);
+}
+
+TEST_F(SimulateCli, TooSmallABudgetIsNamed) {
+    expectRefused(simulate({"hard_24_overflow", "-o", path("a.glb")}), 3, "`pairs` in the scene's [budgets]");
+    expectRefused(simulate({"hard_24_overflow", "-o", path("a_%d.png")}), 3, "pairs");
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(SimulateCli, SaysWhatItGoesOnWithout) {
+    std::ofstream(path("dusty.toml")) << "name = \"dusty\"\neffects = [\"gravity\", \"dust\"]\n[[body]]\n";
+    const Outcome run = simulate({path("dusty.toml"), "--seconds", "0.05", "--json"});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_NE(run.err.find("dusty: simulated without dust"), std::string::npos) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["left_out"], nlohmann::json({"dust"}));
+}
+
+TEST_F(SimulateCli, NoStepsAreTheBeginning) {
+    ASSERT_EQ(simulate({smallScene(), "-o", path("a.glb"), "--seconds", "0"}).exit_code, 0);
+    const reference::MotionFile file = reference::readMotionFile(path("a.glb"));
+    EXPECT_EQ(file.times, (std::vector<double>{0}));
+    EXPECT_NEAR(file.body("box").places[0][1], 1.5, 1e-6);
+}
+
+} // namespace

@@ -1,0 +1,194 @@
+// color_contacts: contacts of one color can be solved side by side, and none is lost on the way into the order of colors.
+#include "tests/kernel/solver_lab.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace kernel_test {
+namespace {
+
+struct Colored {
+    std::vector<uint32_t> colors, slots; // of each contact
+    std::vector<uint32_t> start;         // of each color, NO_COLOR as the last, and the end
+    std::vector<uint32_t> wide;          // counts that were published of the first colors
+    std::vector<uint32_t> wide_groups;   // and workgroups
+};
+
+Colored colorsOnDevice(const Touching& touching) {
+    DeviceTouching in(touching);
+    const uint32_t count = touching.count(), bodies = static_cast<uint32_t>(touching.moves.size());
+    const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(2 * bodies)),
+                         bids = bufferOf(std::vector<uint32_t>(bodies, NO_INDEX)),
+                         waiting = blankBuffer<uint32_t>(2 * count + 2), slots = blankBuffer<uint32_t>(count),
+                         start = blankBuffer<uint32_t>(COLORS + 2);
+    onDevice([&](engine::Commands& commands) {
+        commands.dispatchGroups(kernel("color_contacts"), 1, std::max(count, 1u),
+                                {in.counts.words, in.contact_pairs, in.memory, in.solver_bodies, body_colors, bids, waiting,
+                                 slots, start, in.counts.args});
+    });
+    Colored out = {{}, valuesOf<uint32_t>(slots, count), valuesOf<uint32_t>(start, COLORS + 2), {}, {}};
+    for (const uint32_t pair : in.pair_of)
+        out.colors.push_back(in.memory.mappedAs<gpu::ContactMemory>()[pair].ids.w);
+    for (uint32_t color = 0; color < WIDE_COLORS; ++color) {
+        out.wide.push_back(in.counts[COUNT_FIRST_COLOR + color]);
+        out.wide_groups.push_back(in.counts.argsOf(COUNT_FIRST_COLOR + color)[0]);
+    }
+    return out;
+}
+
+uint32_t classOf(uint32_t color) { return std::min<uint32_t>(color, NO_COLOR); }
+
+// Whether two contacts of a color share a body that moves.
+bool sharesABody(const Touching& touching, const std::vector<uint32_t>& colors) {
+    std::set<Word2> seen;
+    for (uint32_t c = 0; c < touching.count(); ++c)
+        for (const uint32_t body : touching.bodies[c])
+            if (colors[c] < COLORS && touching.moves[body] && !seen.insert({colors[c], body}).second) return true;
+    return false;
+}
+
+// Every contact has a slot of its own, among those of its color.
+void expectInOrder(const Touching& touching, const Colored& out) {
+    std::vector<uint32_t> sizes(COLORS + 1), sorted = out.slots;
+    for (const uint32_t color : out.colors)
+        ++sizes[classOf(color)];
+    EXPECT_EQ(out.start[0], 0u);
+    for (uint32_t color = 0; color <= NO_COLOR; ++color)
+        EXPECT_EQ(out.start[color + 1] - out.start[color], sizes[color]) << color;
+    std::ranges::sort(sorted);
+    EXPECT_EQ(sorted, countUp(touching.count()));
+    for (uint32_t c = 0; c < touching.count(); ++c) {
+        EXPECT_GE(out.slots[c], out.start[classOf(out.colors[c])]) << c;
+        EXPECT_LT(out.slots[c], out.start[classOf(out.colors[c]) + 1]) << c;
+    }
+}
+
+// One contact after the other, the best bid first: each takes the lowest color that its bodies have not.
+std::vector<uint32_t> colorsOneByOne(const Touching& touching) {
+    std::vector<std::set<uint32_t>> taken(touching.moves.size());
+    std::vector<uint32_t> colors = touching.colors, waiting;
+    const auto take = [&](uint32_t c) {
+        for (const uint32_t body : touching.bodies[c])
+            if (touching.moves[body]) taken[body].insert(colors[c]);
+    };
+    for (uint32_t c = 0; c < touching.count(); ++c)
+        if (colors[c] < COLORS)
+            take(c);
+        else
+            waiting.push_back(c);
+    std::ranges::sort(waiting, {}, [](uint32_t c) { return (c * 0x9e3779b1u) & 0x7fffffffu; });
+    for (const uint32_t c : waiting) {
+        const auto& [a, b] = touching.bodies[c];
+        for (colors[c] = 0; colors[c] < COLORS && (taken[a].contains(colors[c]) || taken[b].contains(colors[c]));)
+            ++colors[c];
+        if (colors[c] < COLORS) take(c);
+    }
+    return colors;
+}
+
+// A body in the middle that so many others touch.
+Touching star(uint32_t contacts) {
+    Touching star;
+    star.moves.assign(contacts + 1, true);
+    for (uint32_t k = 0; k < contacts; ++k)
+        star.add(0, k + 1);
+    return star;
+}
+
+TEST(SmallColorContacts, NoneAreNone) {
+    const Colored out = colorsOnDevice({{true, true}, {}, {}});
+    EXPECT_EQ(out.start, std::vector<uint32_t>(COLORS + 2, 0));
+}
+
+TEST(SmallColorContacts, OfOneColorShareNoBodyThatMoves) {
+    for (const uint32_t count : {1u, 2u, 63u, 64u, 65u, 1234u, 20'000u}) {
+        const Touching heap = randomHeap(count, count);
+        const Colored out = colorsOnDevice(heap);
+        EXPECT_FALSE(sharesABody(heap, out.colors)) << count;
+        EXPECT_TRUE(std::ranges::all_of(out.colors, [](uint32_t color) { return color < COLORS; })) << count;
+        expectInOrder(heap, out);
+    }
+}
+
+// So they depend on the list and on no lane.
+TEST(SmallColorContacts, AreThoseThatTakingTurnsByBidsGives) {
+    for (const uint32_t count : {65u, 1234u}) {
+        Touching heap = randomHeap(count, 7 * count);
+        EXPECT_EQ(colorsOnDevice(heap).colors, colorsOneByOne(heap));
+        std::ranges::shuffle(heap.bodies, Chance(count).engine());
+        const Colored other = colorsOnDevice(heap);
+        EXPECT_EQ(other.colors, colorsOneByOne(heap));
+        EXPECT_FALSE(sharesABody(heap, other.colors));
+        expectInOrder(heap, other);
+    }
+}
+
+TEST(SmallColorContacts, KeepTheColorsThatTheyHad) {
+    Touching heap = randomHeap(1000, 3);
+    heap.colors = colorsOnDevice(heap).colors;
+    Chance chance(5);
+    for (uint32_t& color : heap.colors) {
+        color = COLORS - 1 - color; // any colors do
+        if (chance.oneIn(4)) color = chance.oneIn(2) ? NO_INDEX : uint32_t{NO_COLOR};
+    }
+    const Colored out = colorsOnDevice(heap);
+    for (uint32_t c = 0; c < heap.count(); ++c)
+        if (heap.colors[c] < COLORS) {
+            EXPECT_EQ(out.colors[c], heap.colors[c]) << c;
+        }
+    EXPECT_EQ(out.colors, colorsOneByOne(heap));
+    EXPECT_FALSE(sharesABody(heap, out.colors));
+    expectInOrder(heap, out);
+}
+
+TEST(SmallColorContacts, WithTheGroundAloneHaveOneColor) {
+    Touching floor;
+    floor.moves.assign(301, true);
+    floor.moves[0] = false;
+    for (uint32_t k = 1; k <= 300; ++k)
+        floor.add(0, k);
+    const Colored out = colorsOnDevice(floor);
+    EXPECT_EQ(out.colors, std::vector<uint32_t>(300, 0));
+    expectInOrder(floor, out);
+}
+
+TEST(SmallColorContacts, BeyondTheLastColorGoBehindAllOthersAndAreNotLost) {
+    for (const uint32_t count : {64u, 65u, 200u}) {
+        const Touching crowd = star(count);
+        const Colored out = colorsOnDevice(crowd);
+        EXPECT_FALSE(sharesABody(crowd, out.colors));
+        EXPECT_EQ(out.start[NO_COLOR], 64u);
+        EXPECT_EQ(out.start[NO_COLOR + 1], count);
+        expectInOrder(crowd, out);
+    }
+}
+
+// More rounds than there are, or more turns than a lane has.
+TEST(ColorContacts, ThatRunOutOfTurnsAreLeftWithoutAColor) {
+    for (const uint32_t count : {3000u, 60'000u}) {
+        const Touching crowd = star(count);
+        const Colored out = colorsOnDevice(crowd);
+        EXPECT_FALSE(sharesABody(crowd, out.colors));
+        EXPECT_EQ(out.start[NO_COLOR + 1], count);
+        EXPECT_GT(out.start[NO_COLOR], 8u);
+        expectInOrder(crowd, out);
+    }
+}
+
+// The host need not know how many there are of a color.
+TEST(SmallColorContacts, OfTheFirstColorsArePublishedWhereThereAreMany) {
+    const Colored few = colorsOnDevice(randomHeap(FEW_CONTACTS, 1));
+    EXPECT_EQ(few.wide, std::vector<uint32_t>(WIDE_COLORS, 0));
+    EXPECT_EQ(few.wide_groups, std::vector<uint32_t>(WIDE_COLORS, 0));
+    const Colored many = colorsOnDevice(randomHeap(FEW_CONTACTS + 1, 1));
+    for (uint32_t color = 0; color < WIDE_COLORS; ++color) {
+        const uint32_t size = many.start[color + 1] - many.start[color];
+        EXPECT_EQ(many.wide[color], size);
+        EXPECT_EQ(many.wide_groups[color], (size + GROUP_SIZE - 1) / GROUP_SIZE);
+    }
+    EXPECT_GT(many.wide[0], 0u);
+}
+
+} // namespace
+} // namespace kernel_test

@@ -1,0 +1,178 @@
+// push_bodies begins a substep with gravity and the impulses of the one before, keep_impulses ends a step by noting them down.
+#include "tests/kernel/solver_lab.h"
+
+#include <algorithm>
+
+namespace kernel_test {
+namespace {
+
+constexpr double kSubstep = 1.0 / 240;
+
+gpu::SolverContact randomContact(Chance& chance, uint32_t a, uint32_t b) {
+    gpu::SolverContact contact{};
+    const Vector normal = chance.direction();
+    contact.ids = {a, b, 1 + chance.below(4), 0};
+    contact.normal = wordsOf(normal, 0.5);
+    contact.tangent = wordsOf(normal.unitOrthogonal());
+    contact.center_a = wordsOf(chance.inBox(0.5));
+    contact.center_b = wordsOf(chance.inBox(0.5));
+    contact.rub = wordsOf(chance.inBox(1));
+    for (uint32_t k = 0; k < contact.ids.z; ++k) {
+        contact.points[k].arm_a = wordsOf(chance.inBox(0.5));
+        contact.points[k].arm_b = wordsOf(chance.inBox(0.5));
+        contact.points[k].pulse = {static_cast<float>(chance.between(0, 2)), 0, 0, 0};
+    }
+    return contact;
+}
+
+void noteBlow(gpu::SolverContact& contact, uint32_t point) { contact.points[point].pulse.w = 1; }
+
+bool isBlow(const gpu::SolverContact& contact) {
+    for (uint32_t k = 0; k < contact.ids.z; ++k)
+        if (contact.points[k].pulse.w != 0) return true;
+    return false;
+}
+
+struct Push {
+    Vector impulse = Vector::Zero(), twist = Vector::Zero();
+    void add(const Vector& force, const Vector& arm) {
+        impulse += force;
+        twist += arm.cross(force);
+    }
+};
+
+// On body B; on A it is the opposite with its own arms. What a point was hit with counts no more, and friction no more where
+// any point was hit.
+Push pushOf(const gpu::SolverContact& c, bool on_b) {
+    Push push;
+    const double sign = on_b ? 1 : -1;
+    const Vector normal = xyz(c.normal), tangent = xyz(c.tangent);
+    for (uint32_t k = 0; k < c.ids.z; ++k)
+        if (c.points[k].pulse.w == 0)
+            push.add(sign * double{c.points[k].pulse.x} * normal, xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
+    if (isBlow(c)) return push;
+    push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)), xyz(on_b ? c.center_b : c.center_a));
+    push.twist += sign * double{c.rub.z} * normal;
+    return push;
+}
+
+struct Heap {
+    std::vector<RigidBody> bodies;
+    std::vector<gpu::SolverContact> contacts;
+    std::vector<uint32_t> start = {0}, adjacency; // as order_adjacency makes them
+};
+
+Heap pressedHeap(uint32_t body_count, uint32_t contact_count, uint32_t seed) {
+    Chance chance(seed);
+    Heap heap;
+    for (uint32_t b = 0; b < body_count; ++b)
+        heap.bodies.push_back(randomBody(chance, b % 6 != 0));
+    for (uint32_t c = 0; c < contact_count; ++c) {
+        const uint32_t a = chance.below(body_count);
+        heap.contacts.push_back(randomContact(chance, a, (a + 1 + chance.below(5)) % body_count));
+        if (c % 5 == 0) noteBlow(heap.contacts.back(), chance.below(heap.contacts.back().ids.z));
+    }
+    for (uint32_t b = 0; b < body_count; ++b) {
+        for (uint32_t c = 0; c < contact_count && heap.bodies[b].moves(); ++c)
+            for (const uint32_t side : {0u, 1u})
+                if ((side == 0 ? heap.contacts[c].ids.x : heap.contacts[c].ids.y) == b) heap.adjacency.push_back(2 * c + side);
+        heap.start.push_back(static_cast<uint32_t>(heap.adjacency.size()));
+    }
+    return heap;
+}
+
+std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& gravity, uint32_t failed = 0) {
+    Counts counts;
+    counts[STATUS_FAILED] = failed;
+    gpu::SolverPush push{};
+    push.gravity = wordsOf(gravity, kSubstep);
+    const auto bodies_in_all = static_cast<uint32_t>(heap.bodies.size());
+    counts[COUNT_BODIES] = bodies_in_all;
+    const engine::Buffer contacts = bufferOf(heap.contacts), start = bufferOf(heap.start), adjacency = bufferOf(heap.adjacency),
+                         bodies = bufferOf(solverBodiesOf(heap.bodies));
+    onDevice([&](engine::Commands& commands) {
+        commands.dispatch(kernel("push_bodies"), bodies_in_all, push, {counts.words, contacts, start, adjacency, bodies});
+    });
+    return valuesOf<gpu::SolverBody>(bodies, heap.bodies.size());
+}
+
+TEST(SmallPushBodies, GiveThemGravityAndTheImpulsesOfTheirContactsOnceMore) {
+    for (const uint32_t count : {7u, 64u, 65u, 500u}) {
+        const Heap heap = pressedHeap(count, 3 * count, count);
+        const Vector gravity(1, -9.81, 0.5);
+        const std::vector<gpu::SolverBody> pushed = pushedOnDevice(heap, gravity);
+        for (uint32_t b = 0; b < count; ++b) {
+            const RigidBody& body = heap.bodies[b];
+            Push sum;
+            for (uint32_t k = heap.start[b]; k < heap.start[b + 1]; ++k) {
+                const Push one = pushOf(heap.contacts[heap.adjacency[k] / 2], heap.adjacency[k] % 2 == 1);
+                sum.impulse += one.impulse;
+                sum.twist += one.twist;
+            }
+            const Vector velocity =
+                body.moves() ? Vector(xyz(body.state.velocity) + kSubstep * gravity + double{body.state.offset.w} * sum.impulse)
+                             : xyz(body.state.velocity);
+            const Vector spin = xyz(body.state.spin) + body.inverseInertia() * sum.twist;
+            EXPECT_LE((xyz(pushed[b].velocity) - velocity).norm(), 1e-5 * (1 + velocity.norm())) << b;
+            EXPECT_LE((xyz(pushed[b].spin) - spin).norm(), 1e-5 * (1 + spin.norm())) << b;
+        }
+    }
+}
+
+// What one body gets the other one loses.
+TEST(SmallPushBodies, KeepTheMomentumOfAllBodiesThatMove) {
+    Heap heap = pressedHeap(2, 0, 1);
+    Chance chance(2);
+    heap.bodies[0] = randomBody(chance, true);
+    heap.bodies[1].state.offset = heap.bodies[0].state.offset; // the same place, so that arms count from one point
+    heap.bodies[1].state.offset.w = 0.25f;
+    heap.contacts = {randomContact(chance, 0, 1)};
+    for (uint32_t k = 0; k < MANIFOLD_POINTS; ++k)
+        heap.contacts[0].points[k].arm_b = heap.contacts[0].points[k].arm_a;
+    heap.contacts[0].center_b = heap.contacts[0].center_a;
+    heap.adjacency = {0, 1};
+    heap.start = {0, 1, 2};
+    const std::vector<gpu::SolverBody> pushed = pushedOnDevice(heap, {0, 0, 0});
+    Vector momentum = Vector::Zero(), angular = Vector::Zero();
+    for (uint32_t b = 0; b < 2; ++b) {
+        const RigidBody& body = heap.bodies[b];
+        momentum += (xyz(pushed[b].velocity) - xyz(body.state.velocity)) / body.state.offset.w;
+        angular += body.inverseInertia().inverse() * (xyz(pushed[b].spin) - xyz(body.state.spin));
+    }
+    EXPECT_LE(momentum.norm(), 1e-4);
+    EXPECT_LE(angular.norm(), 1e-4);
+}
+
+TEST(SmallPushBodies, LeaveThemAloneIfTheStepFailed) {
+    const Heap heap = pressedHeap(30, 60, 3);
+    const std::vector<gpu::SolverBody> pushed = pushedOnDevice(heap, {0, -9.81, 0}, FAILED_CAPACITY);
+    for (uint32_t b = 0; b < 30; ++b) {
+        EXPECT_EQ(xyz(pushed[b].velocity), xyz(heap.bodies[b].state.velocity));
+        EXPECT_EQ(xyz(pushed[b].spin), xyz(heap.bodies[b].state.spin));
+    }
+}
+
+// A blow is not what the next step begins with.
+TEST(SmallKeepImpulses, NoteWhatContactsWerePressedWithButForBlows) {
+    for (const uint32_t count : kSizes) {
+        Heap heap = pressedHeap(20, count, count);
+        for (uint32_t c = 0; c < count; ++c)
+            heap.contacts[c].ids.w = 2 * (count - c); // remembered in some other order
+        Counts counts;
+        counts[COUNT_CONTACTS] = count;
+        const engine::Buffer contacts = bufferOf(heap.contacts),
+                             memory = bufferOf(std::vector<gpu::ContactMemory>(2 * count + 1));
+        onDevice([&](engine::Commands& commands) {
+            commands.dispatch(kernel("keep_impulses"), count, engine::NoPush{}, {counts.words, contacts, memory});
+        });
+        for (const gpu::SolverContact& contact : heap.contacts) {
+            const gpu::ContactMemory& kept = memory.mappedAs<gpu::ContactMemory>()[contact.ids.w];
+            EXPECT_EQ(xyz(kept.rub), isBlow(contact) ? Vector(0, 0, 0) : xyz(contact.rub));
+            for (uint32_t k = 0; k < contact.ids.z; ++k)
+                EXPECT_EQ(kept.anchor_a[k].w, contact.points[k].pulse.w != 0 ? 0 : contact.points[k].pulse.x);
+        }
+    }
+}
+
+} // namespace
+} // namespace kernel_test

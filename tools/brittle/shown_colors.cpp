@@ -1,0 +1,41 @@
+#include "tools/brittle/shown_colors.h"
+
+#include <array>
+#include <cmath>
+
+namespace cli {
+namespace {
+
+constexpr double kGoldenPart = 0.6180339887498949;
+constexpr float kGround = 0.34f, kShade = 0.45f;
+
+// A hue from 0 to 1 by the usual six ramps, as a linear color.
+std::array<float, 3> colorOf(double hue, double saturation, double value) {
+    std::array<float, 3> color;
+    for (size_t k = 0; k < 3; ++k) {
+        const double place = std::fmod(6 * hue + 5 - 2 * static_cast<double>(k), 6);
+        const double less = std::fmax(0, std::fmin(std::fmin(place, 4 - place), 1));
+        color[k] = static_cast<float>(std::pow(value * (1 - saturation * less), 2.2));
+    }
+    return color;
+}
+
+gpu::vec4 packed(const std::array<float, 3>& color, float w) { return {color[0], color[1], color[2], w}; }
+
+} // namespace
+
+gpu::ObjectColor colorOf(const brittle::BodyLook& look, size_t number, double fading_distance) {
+    const auto end = static_cast<float>(fading_distance);
+    if (look.is_plane) return {{kGround, kGround, kGround * 1.03f, 1}, {kGround, kGround, kGround, end}};
+    if (!look.moves) return {{0.45f, 0.45f, 0.46f, 1}, {0.45f, 0.45f, 0.46f, 0}};
+    const double hue = std::fmod(0.07 + kGoldenPart * static_cast<double>(number), 1);
+    const double value = 0.72 + 0.16 * std::fmod(7 * kGoldenPart * static_cast<double>(number), 1);
+    return {packed(colorOf(hue, 0.37, value), 1), packed(colorOf(hue, 0.55, 0.72 * value), 0)};
+}
+
+gpu::ObjectColor shadowColor(double fading_distance) {
+    const float shade = kGround * kShade;
+    return {{shade, shade, 1.08f * shade, 0}, {shade, shade, 1.08f * shade, static_cast<float>(fading_distance)}};
+}
+
+} // namespace cli

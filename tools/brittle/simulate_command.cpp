@@ -1,0 +1,153 @@
+// brittle simulate: a scene in motion, as an animation, a picture, a film, or numbers.
+#include "tools/brittle/command.h"
+#include "tools/brittle/motion_output.h"
+#include "tools/brittle/progress.h"
+#include "tools/brittle/same_file.h"
+#include "tools/brittle/scene_source.h"
+#include "tools/brittle/simulation.h"
+
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::Result;
+
+struct SimulateOptions {
+    std::string scene, output, device;
+    std::optional<double> seconds;
+    double fps = kUsualFps;
+    uint32_t group_size = 0;
+    bool state_hash = false;
+    bool as_json = false;
+};
+
+struct SimulateOutcome {
+    std::string device;
+    SimulationReport report;
+};
+
+Result<void> checkOutputApart(const SimulateOptions& options, const brittle::SceneDescription& scene) {
+    const auto refused = [&] {
+        return Error{ErrorCode::BadInput,
+                     options.output + ": is read as input and would be overwritten; write to another file"};
+    };
+    const auto isRead = [&](const brittle::ShapeDescription& shape) {
+        return !shape.file.empty() && sameFile(options.output, (folderOf(options.scene) / shape.file).string());
+    };
+    if (sameFile(options.output, options.scene)) return refused();
+    for (const brittle::BodyDescription& body : scene.bodies)
+        if (isRead(body.shape)) return refused();
+    for (const brittle::ColliderDescription& collider : scene.colliders)
+        if (isRead(collider.shape)) return refused();
+    return {};
+}
+
+Result<StagedScene> stage(const SimulateOptions& options, brittle::SceneDescription scene, engine::Device& device) {
+    StagedScene staged;
+    staged.scene = std::move(scene);
+    if (staged.scene.name.empty()) staged.scene.name = options.scene;
+    std::unique_ptr<brittle::Fracture> fracture;
+    if (brittle::needsFracture(staged.scene)) {
+        auto made = brittle::Fracture::create(device, options.group_size);
+        if (!made) return made.error();
+        fracture = std::move(*made);
+    }
+    showProgress("making the bodies");
+    auto contents = brittle::contentsOf(staged.scene, folderOf(options.scene), fracture.get(),
+                                        options.output.empty() ? nullptr : &staged.surfaces);
+    if (!contents) return Error{contents.error().code, staged.scene.name + ": " + contents.error().message};
+    staged.contents = std::move(*contents);
+    return staged;
+}
+
+Result<std::unique_ptr<MotionOutput>> openOutput(const SimulateOptions& options, const brittle::SceneDescription& scene) {
+    if (options.output.empty()) return std::unique_ptr<MotionOutput>();
+    if (auto apart = checkOutputApart(options, scene); !apart) return apart.error();
+    return MotionOutput::create(options.output, options.fps);
+}
+
+Result<SimulateOutcome> run(const SimulateOptions& options) {
+    auto scene = readSceneOrBuiltin(options.scene);
+    if (!scene) return scene.error();
+    std::unique_ptr<engine::Device> device; // outlives the output, which may draw with it
+    auto output = openOutput(options, *scene);
+    if (!output) return output.error();
+    showProgress("opening the device");
+    auto opened = engine::Device::create({.select = options.device});
+    if (!opened) return opened.error();
+    device = std::move(*opened);
+    const auto staged = stage(options, std::move(*scene), *device);
+    if (!staged) return staged.error();
+    auto report = simulate(*device, *staged, options.seconds, options.group_size, output->get());
+    if (!report) return report.error();
+    if (*output)
+        if (auto committed = (*output)->commit(); !committed) return committed.error();
+    clearProgress();
+    return SimulateOutcome{device->name(), std::move(*report)};
+}
+
+void print(const SimulateOptions& options, const SimulateOutcome& outcome) {
+    if (options.as_json) {
+        nlohmann::ordered_json json = {{"device", outcome.device}};
+        json.update(simulationJson(outcome.report));
+        std::printf("%s\n", json.dump(2).c_str());
+    } else if (options.state_hash) {
+        std::printf("%s\n", hexOf(outcome.report.state_hash).c_str());
+    } else {
+        std::printf("device     %s\n", outcome.device.c_str());
+        printSimulation(outcome.report, options.output);
+    }
+}
+
+int runSimulate(const SimulateOptions& options) {
+    if (options.output.empty() && !options.as_json && !options.state_hash)
+        return fail({ErrorCode::BadInput, "nothing is asked for; give -o, --json or --state-hash"});
+    const auto outcome = run(options);
+    if (!outcome) return fail(outcome.error());
+    reportLeftOut(outcome->report);
+    print(options, *outcome);
+    return kOk;
+}
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  brittle simulate card_house -o house.glb\n"
+    "  brittle simulate hull_pile_100 -o pile.mp4 --fps 30\n"
+    "  brittle simulate tower.toml -o tower.png --seconds 2\n"
+    "  brittle simulate hard_01_block_500 --json\n"
+    "  brittle simulate stack_10 --state-hash\n"
+    "\n"
+    "brittle scenes lists the built-in scenes. A frame between two steps lies evenly between their states. Films need the\n"
+    "program ffmpeg.";
+
+} // namespace
+
+void addSimulate(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("simulate", "Let a scene move: write an animation, a picture, a film, or numbers.");
+    command->footer(kFooter);
+    auto options = std::make_shared<SimulateOptions>();
+    command->add_option("SCENE", options->scene, kSceneHelp)->required();
+    command->add_option("-o,--output", options->output, kMotionHelp)->check(someText);
+    command
+        ->add_option("--seconds", options->seconds, "how long, rounded up to whole steps; else as many steps as the scene says")
+        ->check(CLI::Range(0.0, 1e6))
+        ->check(notANumber);
+    command->add_option("--fps", options->fps, "frames a second, of animations, numbered pictures and films")
+        ->capture_default_str()
+        ->check(CLI::Range(0.001, 1000.0))
+        ->check(notANumber);
+    command->add_flag("--state-hash", options->state_hash, "print 64 bits that tell the last state of all bodies, and no more");
+    command->add_flag("--json", options->as_json, "print one JSON object, the hash in it");
+    command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
+    command
+        ->add_option("--group-size", options->group_size,
+                     "lanes of a workgroup, a power of two from 8 to 256; the motion is the same")
+        ->check(groupSize)
+        ->option_text("N [64]");
+    command->callback([options, &exit_code] { exit_code = runSimulate(*options); });
+}
+
+} // namespace cli

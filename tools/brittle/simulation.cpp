@@ -1,0 +1,182 @@
+#include "tools/brittle/simulation.h"
+
+#include "modules/brittle/mesh/format.h"
+#include "tools/brittle/progress.h"
+#include "tools/brittle/world_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::Result;
+
+constexpr double kOnStep = 1e-6, kMostSteps = 1e9;
+
+Result<uint32_t> stepsOf(const brittle::StepDescription& step, std::optional<double> seconds) {
+    if (!seconds) return step.steps;
+    const double steps = std::ceil(*seconds / step.dt - kOnStep);
+    if (steps > kMostSteps)
+        return Error{ErrorCode::BadInput, brittle::formatNumber(*seconds) + " s are " + brittle::formatNumber(steps) +
+                                              " steps; ask for fewer seconds, 1e9 steps at most"};
+    return static_cast<uint32_t>(std::max(steps, 0.0));
+}
+
+Error aboutScene(const StagedScene& staged, const Error& error) {
+    const std::string advice = error.code == ErrorCode::Capacity ? " (" + staged.room_advice + ")" : "";
+    return {error.code, staged.scene.name + ": " + error.message + advice};
+}
+
+class Simulation {
+public:
+    Simulation(engine::Device& device, const StagedScene& staged, brittle::World& world, uint32_t steps)
+        : device_(device), staged_(staged), world_(world), steps_(steps), clock_(world, staged.scene.step.dt, steps) {}
+
+    Result<void> run(MotionOutput* output) {
+        if (output != nullptr)
+            if (auto shown = show(*output); !shown) return shown;
+        if (auto done = clock_.advanceTo(steps_); !done) return aboutScene(staged_, done.error());
+        return {};
+    }
+    Result<SimulationReport> report() const;
+
+private:
+    double seconds() const { return steps_ * staged_.scene.step.dt; }
+    Result<void> show(MotionOutput& output);
+    void addTimes(SimulationReport& report) const;
+
+    engine::Device& device_;
+    const StagedScene& staged_;
+    brittle::World& world_;
+    uint32_t steps_;
+    size_t frames_ = 0;
+    WorldClock clock_;
+};
+
+Result<void> Simulation::show(MotionOutput& output) {
+    const Spectacle spectacle = {device_, staged_.scene, staged_.surfaces, brittle::originOf(staged_.contents.bodies)};
+    const auto times = output.times(seconds());
+    if (!times) return times.error();
+    if (auto begun = output.begin(spectacle); !begun) return begun;
+    for (const double time : *times) {
+        const auto poses = clock_.posesAt(time);
+        if (!poses) return aboutScene(staged_, poses.error());
+        if (auto added = output.add(time, *poses); !added) return added;
+        ++frames_;
+    }
+    showProgress("writing");
+    return output.finish();
+}
+
+Result<SimulationReport> Simulation::report() const {
+    SimulationReport report;
+    report.scene = staged_.scene.name;
+    report.steps = steps_;
+    report.seconds = seconds();
+    report.frames = frames_;
+    report.dispatches = world_.dispatches();
+    report.counts = {static_cast<uint32_t>(staged_.contents.bodies.size()),
+                     static_cast<uint32_t>(staged_.contents.pieces.size())};
+    report.left_out = brittle::effectsWithout(staged_.scene);
+    if (steps_ > 0) {
+        const auto counts = world_.counts();
+        if (!counts) return counts.error();
+        report.counts = *counts;
+        addTimes(report);
+    }
+    const auto bodies = world_.bodies();
+    if (!bodies) return bodies.error();
+    report.kinetic_energy = brittle::kineticEnergyOf(*bodies);
+    const auto hash = world_.hash();
+    if (!hash) return hash.error();
+    report.state_hash = *hash;
+    return report;
+}
+
+void Simulation::addTimes(SimulationReport& report) const {
+    std::vector<double> ms = clock_.stepTimes();
+    report.first_ms = ms.front();
+    if (ms.size() > 1) ms.erase(ms.begin());
+    std::ranges::sort(ms);
+    const auto at = [&](double share) {
+        return ms[static_cast<size_t>(std::lround(share * static_cast<double>(ms.size() - 1)))];
+    };
+    report.median_ms = at(0.5);
+    report.p99_ms = at(0.99);
+    double all = 0;
+    for (const auto& [name, stage_ms] : clock_.stages())
+        all += stage_ms;
+    for (const auto& [name, stage_ms] : clock_.stages())
+        report.shares.emplace_back(name, all > 0 ? stage_ms / all : 0);
+}
+
+} // namespace
+
+Result<SimulationReport> simulate(engine::Device& device, const StagedScene& staged, std::optional<double> seconds,
+                                  uint32_t group_size, MotionOutput* output) {
+    const auto about = [&](const Error& error) { return aboutScene(staged, error); };
+    const auto settings = brittle::settingsOf(staged.scene);
+    if (!settings) return about(settings.error());
+    const auto steps = stepsOf(staged.scene.step, seconds);
+    if (!steps) return steps.error();
+    const brittle::WorldBudget budget = {staged.scene.budgets.pairs, group_size};
+    const auto world = brittle::World::create(device, staged.contents, *settings, budget);
+    if (!world) return about(world.error());
+    Simulation simulation(device, staged, **world, *steps);
+    if (auto done = simulation.run(output); !done) return done.error();
+    return simulation.report();
+}
+
+void reportLeftOut(const SimulationReport& report) {
+    if (report.left_out.empty()) return;
+    std::string names;
+    for (const std::string& name : report.left_out)
+        names += (names.empty() ? "" : ", ") + name;
+    std::fprintf(stderr, "brittle: %s: simulated without %s, which there is not yet\n", report.scene.c_str(), names.c_str());
+}
+
+std::string hexOf(uint64_t hash) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+    return digits;
+}
+
+nlohmann::ordered_json simulationJson(const SimulationReport& r) {
+    nlohmann::ordered_json shares = nlohmann::ordered_json::object();
+    for (const auto& [name, share] : r.shares)
+        shares[name] = share;
+    return {{"scene", r.scene},
+            {"seconds", r.seconds},
+            {"steps", r.steps},
+            {"frames", r.frames},
+            {"ms_per_step", {{"median", r.median_ms}, {"p99", r.p99_ms}, {"first", r.first_ms}}},
+            {"dispatches_per_step", r.dispatches},
+            {"bodies", r.counts.bodies},
+            {"pieces", r.counts.pieces},
+            {"pairs", r.counts.pairs},
+            {"contacts", r.counts.contacts},
+            {"awake", r.counts.awake},
+            {"stages", shares},
+            {"kinetic_energy", r.kinetic_energy},
+            {"left_out", r.left_out},
+            {"state_hash", hexOf(r.state_hash)}};
+}
+
+void printSimulation(const SimulationReport& r, const std::string& output) {
+    std::printf("scene      %s: %u bodies of %u pieces\n", r.scene.c_str(), r.counts.bodies, r.counts.pieces);
+    std::printf("steps      %u, %s s; at the last %u pairs, %u contacts, %u bodies awake, %s J of motion\n", r.steps,
+                brittle::formatNumber(r.seconds).c_str(), r.counts.pairs, r.counts.contacts, r.counts.awake,
+                brittle::formatNumber(r.kinetic_energy).c_str());
+    std::printf("time       %.2f ms a step (median), %.2f (99 of 100), %.0f the first; %u dispatches\n", r.median_ms, r.p99_ms,
+                r.first_ms, r.dispatches);
+    for (const auto& [name, share] : r.shares)
+        std::printf("  %-22s %9.1f %%\n", name.c_str(), 100 * share);
+    std::printf("state      %s\n", hexOf(r.state_hash).c_str());
+    if (!output.empty()) std::printf("written    %zu frames, in %s\n", r.frames, output.c_str());
+}
+
+} // namespace cli

@@ -1,0 +1,52 @@
+// A scene from its first step to its last: what brittle simulate and brittle shatter --drop have in common.
+#pragma once
+
+#include "engine/device.h"
+#include "modules/brittle/dynamics/scene_contents.h"
+#include "tools/brittle/motion_output.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+constexpr double kUsualFps = 60;
+
+struct StagedScene {
+    brittle::SceneDescription scene;
+    brittle::WorldContents contents;
+    brittle::WorldSurfaces surfaces;                              // only read where there is an output
+    std::string room_advice = "`pairs` in the scene's [budgets]"; // where something does not fit
+};
+
+struct SimulationReport {
+    std::string scene;
+    uint32_t steps = 0;
+    double seconds = 0;
+    size_t frames = 0; // that were written
+    brittle::WorldCounts counts;
+    uint32_t dispatches = 0; // of a step
+    // Wall clock of a step, with the wait for it. The first is apart: the driver compiles kernels in it.
+    double first_ms = 0, median_ms = 0, p99_ms = 0;
+    std::vector<std::pair<std::string, double>> shares; // of stages in the device time of all steps
+    double kinetic_energy = 0;                          // J, at the end
+    uint64_t state_hash = 0;                            // World::hash, at the end
+    std::vector<std::string> left_out;                  // effects that the scene lists and the world has not got
+};
+
+// In whole steps: `seconds` is rounded up to them; none: as many steps as the scene says. `output` may be nullptr; it is
+// finished, not committed. Errors: what the world says, Capacity with the key of the scene to raise.
+engine::Result<SimulationReport> simulate(engine::Device& device, const StagedScene& staged, std::optional<double> seconds,
+                                          uint32_t group_size, MotionOutput* output);
+
+nlohmann::ordered_json simulationJson(const SimulationReport& report);
+void printSimulation(const SimulationReport& report, const std::string& output);
+std::string hexOf(uint64_t hash); // 16 digits
+// One line on stderr where the world goes on without effects that were asked for.
+void reportLeftOut(const SimulationReport& report);
+
+} // namespace cli
