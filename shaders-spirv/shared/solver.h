@@ -43,7 +43,7 @@ GPU_NAMESPACE_BEGIN
 #define FEW_CONTACTS 1024
 
 #define LOAD_CARRIED 0.75
-#define LOAD_FOLLOWED 0.03 /* of the difference, a step */
+#define LOAD_FOLLOWED 0.2 /* of the difference, a step */
 
 // A body while it is solved. `moved` and `turned` count from the beginning of the step.
 struct SolverBody {
@@ -55,8 +55,8 @@ struct SolverBody {
 };
 
 struct SolverPoint {
-    vec4 arm_a; // frozen since the contact was found; w: separation at the beginning of the step
-    vec4 arm_b; // w: effective mass along the normal
+    vec4 arm_a; // of the same point as B's when the step began; w: separation at the beginning of the step
+    vec4 arm_b; // frozen since the contact was found; w: effective mass along the normal
     vec4 pulse; // impulse, the greatest of the step, speed of separation at the moment they meet, 1 after a blow
 };
 

@@ -41,32 +41,40 @@ struct Push {
     }
 };
 
-// On body B; on A it is the opposite with its own arms. What a point was hit with counts no more, and friction no more where
+// On body B; on A it is the opposite at the same point, wherever B has moved to. What a point was hit with counts no more, and friction no more where
 // any point was hit.
-Push pushOf(const gpu::SolverContact& c, bool on_b) {
+Push pushOf(const gpu::SolverContact& c, bool on_b, const Vector& moved) {
     Push push;
+    const Vector from_a = on_b ? Vector::Zero() : moved;
     const double sign = on_b ? 1 : -1;
     const Vector normal = xyz(c.normal), tangent = xyz(c.tangent);
     for (uint32_t k = 0; k < c.ids.z; ++k)
         if (c.points[k].pulse.w == 0)
-            push.add(sign * double{c.points[k].pulse.x} * normal, xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
+            push.add(sign * double{c.points[k].pulse.x} * normal, from_a + xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
     if (isBlow(c)) return push;
-    push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)), xyz(on_b ? c.center_b : c.center_a));
+    push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)), from_a + xyz(on_b ? c.center_b : c.center_a));
     push.twist += sign * double{c.rub.z} * normal;
     return push;
 }
 
 struct Heap {
     std::vector<RigidBody> bodies;
+    std::vector<Vector> moved; // since the step began
     std::vector<gpu::SolverContact> contacts;
+    Push pushOn(uint32_t entry) const {
+        const gpu::SolverContact& c = contacts[entry / 2];
+        return pushOf(c, entry % 2 == 1, moved[c.ids.y] - moved[c.ids.x]);
+    }
     std::vector<uint32_t> start = {0}, adjacency; // as order_adjacency makes them
 };
 
 Heap pressedHeap(uint32_t body_count, uint32_t contact_count, uint32_t seed) {
     Chance chance(seed);
     Heap heap;
-    for (uint32_t b = 0; b < body_count; ++b)
+    for (uint32_t b = 0; b < body_count; ++b) {
         heap.bodies.push_back(randomBody(chance, b % 6 != 0));
+        heap.moved.push_back(heap.bodies[b].moves() ? chance.inBox(0.1) : Vector::Zero());
+    }
     for (uint32_t c = 0; c < contact_count; ++c) {
         const uint32_t a = chance.below(body_count);
         heap.contacts.push_back(randomContact(chance, a, (a + 1 + chance.below(5)) % body_count));
@@ -88,8 +96,11 @@ std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& grav
     push.gravity = wordsOf(gravity, kSubstep);
     const auto bodies_in_all = static_cast<uint32_t>(heap.bodies.size());
     counts[COUNT_BODIES] = bodies_in_all;
+    std::vector<gpu::SolverBody> solver_bodies = solverBodiesOf(heap.bodies);
+    for (uint32_t b = 0; b < bodies_in_all; ++b)
+        solver_bodies[b].moved = wordsOf(heap.moved[b], double{solver_bodies[b].moved.w});
     const engine::Buffer contacts = bufferOf(heap.contacts), start = bufferOf(heap.start), adjacency = bufferOf(heap.adjacency),
-                         bodies = bufferOf(solverBodiesOf(heap.bodies));
+                         bodies = bufferOf(solver_bodies);
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("push_bodies"), bodies_in_all, push, {counts.words, contacts, start, adjacency, bodies});
     });
@@ -105,7 +116,7 @@ TEST(SmallPushBodies, GiveThemGravityAndTheImpulsesOfTheirContactsOnceMore) {
             const RigidBody& body = heap.bodies[b];
             Push sum;
             for (uint32_t k = heap.start[b]; k < heap.start[b + 1]; ++k) {
-                const Push one = pushOf(heap.contacts[heap.adjacency[k] / 2], heap.adjacency[k] % 2 == 1);
+                const Push one = heap.pushOn(heap.adjacency[k]);
                 sum.impulse += one.impulse;
                 sum.twist += one.twist;
             }
@@ -119,24 +130,27 @@ TEST(SmallPushBodies, GiveThemGravityAndTheImpulsesOfTheirContactsOnceMore) {
     }
 }
 
-// What one body gets the other one loses.
+// What one body gets the other one loses, about the origin, wherever the two have moved to.
 TEST(SmallPushBodies, KeepTheMomentumOfAllBodiesThatMove) {
     Heap heap = pressedHeap(2, 0, 1);
     Chance chance(2);
     heap.bodies[0] = randomBody(chance, true);
-    heap.bodies[1].state.offset = heap.bodies[0].state.offset; // the same place, so that arms count from one point
-    heap.bodies[1].state.offset.w = 0.25f;
+    heap.bodies[1] = randomBody(chance, true);
+    heap.moved = {chance.inBox(0.1), chance.inBox(0.1)};
     heap.contacts = {randomContact(chance, 0, 1)};
-    for (uint32_t k = 0; k < MANIFOLD_POINTS; ++k)
-        heap.contacts[0].points[k].arm_b = heap.contacts[0].points[k].arm_a;
-    heap.contacts[0].center_b = heap.contacts[0].center_a;
+    const Vector way = heap.bodies[1].place() - heap.bodies[0].place();
+    for (gpu::SolverPoint& point : heap.contacts[0].points)
+        point.arm_a = wordsOf(way + xyz(point.arm_b));
+    heap.contacts[0].center_a = wordsOf(way + xyz(heap.contacts[0].center_b));
     heap.adjacency = {0, 1};
     heap.start = {0, 1, 2};
     const std::vector<gpu::SolverBody> pushed = pushedOnDevice(heap, {0, 0, 0});
     Vector momentum = Vector::Zero(), angular = Vector::Zero();
     for (uint32_t b = 0; b < 2; ++b) {
         const RigidBody& body = heap.bodies[b];
-        momentum += (xyz(pushed[b].velocity) - xyz(body.state.velocity)) / body.state.offset.w;
+        const Vector gained = (xyz(pushed[b].velocity) - xyz(body.state.velocity)) / double{body.state.offset.w};
+        momentum += gained;
+        angular += (body.place() + heap.moved[b]).cross(gained);
         angular += body.inverseInertia().inverse() * (xyz(pushed[b].spin) - xyz(body.state.spin));
     }
     EXPECT_LE(momentum.norm(), 1e-4);

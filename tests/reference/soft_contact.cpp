@@ -9,7 +9,8 @@ namespace reference {
 namespace {
 
 constexpr double kLoadCarried = 0.75;  // of what a point has carried of late, the share that does not make it give way
-constexpr double kLoadFollowed = 0.03; // of what it carries now, a step
+constexpr double kLoadFollowed = 0.2; // of what it carries now, a step
+constexpr double kNoPull = 1e-3;       // of what all points press: what would pull less than that is to press with nothing
 constexpr double kDoubt = 0.02;        // of the mean diagonal: speeds that hardly any impulse gives are not asked for
 
 using Four = SoftContact::Four;
@@ -149,6 +150,7 @@ void SoftContact::beginStep(const RigidBody& on_a, const RigidBody& on_b) {
         p.separation_then = dot(normal, way);
         p.was_blow = false;
     }
+    slid = on_b.place + center_b - on_a.place - center_a;
     reach = 0;
     for (const SoftPoint& p : points)
         reach += length(p.arm_a - center_a) / kPoints;
@@ -160,7 +162,7 @@ void SoftContact::weighPressing(const RigidBody& on_a, const RigidBody& on_b) {
     Matrix yields;
     for (size_t i = 0; i < kPoints; ++i) {
         for (size_t j = 0; j < kPoints; ++j)
-            yields[i][j] = yieldOf(on_a, points[i].arm_a, normal, points[j].arm_a, normal) +
+            yields[i][j] = yieldOf(on_a, points[i].arm_a + slid, normal, points[j].arm_a + slid, normal) +
                            yieldOf(on_b, points[i].arm_b, normal, points[j].arm_b, normal);
         points[i].mass = 1 / yields[i][i];
     }
@@ -170,7 +172,7 @@ void SoftContact::weighPressing(const RigidBody& on_a, const RigidBody& on_b) {
 void SoftContact::weighRubbing(const RigidBody& on_a, const RigidBody& on_b) {
     const Point u = tangent, v = cross(normal, tangent);
     const auto yield = [&](const Point& s, const Point& t) {
-        return yieldOf(on_a, center_a, s, center_a, t) + yieldOf(on_b, center_b, s, center_b, t);
+        return yieldOf(on_a, center_a + slid, s, center_a + slid, t) + yieldOf(on_b, center_b, s, center_b, t);
     };
     const double uu = yield(u, u), uv = yield(u, v), vv = yield(v, v), determinant = uu * vv - uv * uv;
     rub_mass = {vv / determinant, -uv / determinant, uu / determinant};
@@ -184,12 +186,12 @@ bool SoftContact::hasBlow() const {
 void SoftContact::applyAgain(RigidBody& on_a, RigidBody& on_b) const {
     for (const SoftPoint& p : points) {
         const Point pressed = (p.was_blow ? 0 : p.impulse) * normal;
-        on_a.push(p.arm_a, -1.0 * pressed);
+        on_a.push(reachOf(p.arm_a, on_a, on_b), -1.0 * pressed);
         on_b.push(p.arm_b, pressed);
     }
     if (hasBlow()) return;
     const Point rubbed = slide * tangent + slide_across * cross(normal, tangent);
-    on_a.push(center_a, -1.0 * rubbed);
+    on_a.push(reachOf(center_a, on_a, on_b), -1.0 * rubbed);
     on_b.push(center_b, rubbed);
     on_a.twist(-twist * normal);
     on_b.twist(twist * normal);
@@ -197,18 +199,23 @@ void SoftContact::applyAgain(RigidBody& on_a, RigidBody& on_b) const {
 
 // From differences of what is small: bodies that fall alike must stay exactly as far apart as they were.
 double SoftContact::separationOf(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const {
-    const Point of_a = shiftedBy(on_a.turned, p.arm_a), of_b = shiftedBy(on_b.turned, p.arm_b);
+    const Point of_a = shiftedBy(on_a.turned, p.arm_a + slid), of_b = shiftedBy(on_b.turned, p.arm_b);
     return p.separation_then + dot(normal, on_b.moved - on_a.moved + of_b - of_a);
 }
 
-double SoftContact::speedAt(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const {
-    return dot(normal, on_b.velocityAt(p.arm_b) - on_a.velocityAt(p.arm_a));
+Point SoftContact::reachOf(const Point& arm_a, const RigidBody& on_a, const RigidBody& on_b) const {
+    return arm_a + slid + on_b.moved - on_a.moved;
 }
 
-// What is apart may close its gap in a substep; what overlaps is pushed out, softly, or only kept from going deeper.
-SoftContact::Demand SoftContact::demandOf(double separation, bool is_stiff, const SolveSettings& settings,
+double SoftContact::speedAt(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const {
+    return dot(normal, on_b.velocityAt(p.arm_b) - on_a.velocityAt(reachOf(p.arm_a, on_a, on_b)));
+}
+
+// What is apart may close its gap in a substep; what overlaps or presses is pushed, softly, to where it touches, or only kept
+// where it is.
+SoftContact::Demand SoftContact::demandOf(double separation, double impulse, bool is_stiff, const SolveSettings& settings,
                                           bool with_push) const {
-    if (separation > 0) return {separation / settings.seconds, 1, 0};
+    if (separation > 0 && impulse == 0) return {separation / settings.seconds, 1, 0};
     if (!with_push) return {0, 1, 0};
     const Softness& spring = is_stiff ? settings.stiff : settings.soft;
     return {std::max(spring.push_per_overlap * separation, -settings.fastest_push), spring.mass_share, spring.impulse_share};
@@ -217,6 +224,9 @@ SoftContact::Demand SoftContact::demandOf(double separation, bool is_stiff, cons
 // All points at once, and none where one would have to pull.
 void SoftContact::solveTogether(RigidBody& on_a, RigidBody& on_b, const std::array<Demand, kPoints>& demands) {
     Four lacks, total;
+    double pressed = 0;
+    for (const SoftPoint& p : points)
+        pressed += p.impulse;
     for (size_t k = 0; k < kPoints; ++k) {
         lacks[k] = speedAt(points[k], on_a, on_b) + demands[k].speed;
         if (lacks[k] > 0 && points[k].impulse == 0) lacks[k] = 0;
@@ -227,11 +237,12 @@ void SoftContact::solveTogether(RigidBody& on_a, RigidBody& on_b, const std::arr
             asked += press[k][j] * lacks[j];
         const double given_way = std::max(points[k].impulse - kLoadCarried * points[k].carried, 0.0);
         total[k] = points[k].impulse - demands[k].mass_share * asked - demands[k].impulse_share * given_way;
-        if (total[k] < 0) return;
+        if (total[k] < -kNoPull * pressed) return;
+        total[k] = std::max(total[k], 0.0);
     }
     for (size_t k = 0; k < kPoints; ++k) {
         const Point impulse = (total[k] - points[k].impulse) * normal;
-        on_a.push(points[k].arm_a, -1.0 * impulse);
+        on_a.push(reachOf(points[k].arm_a, on_a, on_b), -1.0 * impulse);
         on_b.push(points[k].arm_b, impulse);
         points[k].impulse = total[k];
     }
@@ -241,7 +252,7 @@ void SoftContact::solvePoint(SoftPoint& p, RigidBody& on_a, RigidBody& on_b, con
     const double asked = demand.mass_share * p.mass * (speedAt(p, on_a, on_b) + demand.speed);
     const double given_way = demand.impulse_share * std::max(p.impulse - kLoadCarried * p.carried, 0.0);
     const double total = std::max(p.impulse - asked - given_way, 0.0);
-    on_a.push(p.arm_a, (p.impulse - total) * normal);
+    on_a.push(reachOf(p.arm_a, on_a, on_b), (p.impulse - total) * normal);
     on_b.push(p.arm_b, (total - p.impulse) * normal);
     p.impulse = total;
 }
@@ -254,14 +265,15 @@ void SoftContact::resistTwist(RigidBody& on_a, RigidBody& on_b, double most) {
 }
 
 void SoftContact::resistSliding(RigidBody& on_a, RigidBody& on_b, double most) {
-    const Point u = tangent, v = cross(normal, tangent), slip = on_b.velocityAt(center_b) - on_a.velocityAt(center_a);
+    const Point u = tangent, v = cross(normal, tangent), arm_a = reachOf(center_a, on_a, on_b);
+    const Point slip = on_b.velocityAt(center_b) - on_a.velocityAt(arm_a);
     double along = slide - rub_mass[0] * dot(slip, u) - rub_mass[1] * dot(slip, v);
     double across = slide_across - rub_mass[1] * dot(slip, u) - rub_mass[2] * dot(slip, v);
     const double size = std::hypot(along, across), share = size > most ? most / size : 1;
     along *= share;
     across *= share;
     const Point impulse = (along - slide) * u + (across - slide_across) * v;
-    on_a.push(center_a, -1.0 * impulse);
+    on_a.push(arm_a, -1.0 * impulse);
     on_b.push(center_b, impulse);
     slide = along;
     slide_across = across;
@@ -271,10 +283,11 @@ void SoftContact::solve(RigidBody& on_a, RigidBody& on_b, const SolveSettings& s
     std::array<Demand, kPoints> demands;
     for (size_t k = 0; k < kPoints; ++k) {
         SoftPoint& p = points[k];
-        demands[k] = demandOf(separationOf(p, on_a, on_b), !on_a.moves() || !on_b.moves(), settings, with_push);
-        if (!with_push) continue;
-        if (p.was_blow) p.impulse = 0;
-        p.was_blow = speedAt(p, on_a, on_b) < -settings.blow_speed;
+        if (with_push) {
+            if (p.was_blow) p.impulse = 0;
+            p.was_blow = speedAt(p, on_a, on_b) < -settings.blow_speed;
+        }
+        demands[k] = demandOf(separationOf(p, on_a, on_b), p.impulse, !on_a.moves() || !on_b.moves(), settings, with_push);
     }
     solveTogether(on_a, on_b, demands);
     for (size_t k = 0; k < kPoints; ++k)

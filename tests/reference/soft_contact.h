@@ -77,8 +77,9 @@ private:
     struct Demand {
         double speed, mass_share, impulse_share;
     };
-    Demand demandOf(double separation, bool is_stiff, const SolveSettings& settings, bool with_push) const;
+    Demand demandOf(double separation, double impulse, bool is_stiff, const SolveSettings& settings, bool with_push) const;
     double separationOf(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const;
+    Point reachOf(const Point& arm_a, const RigidBody& on_a, const RigidBody& on_b) const; // from A to the point of B
     double speedAt(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const;
     bool hasBlow() const;
     void weighPressing(const RigidBody& on_a, const RigidBody& on_b);
@@ -89,6 +90,7 @@ private:
     void resistSliding(RigidBody& on_a, RigidBody& on_b, double most);
 
     Point center_a = {0, 0, 0}, center_b = {0, 0, 0};
+    Point slid = {0, 0, 0}; // B's center from A's when the step began
     double reach = 0; // mean distance of the points from their center
     double twist_mass = 0;
     Point rub_mass = {0, 0, 0};      // along and across the tangent: 11, 12, 22
