@@ -55,7 +55,7 @@ void solvePoint(inout SolverPoint p, float load, vec3 demand, vec3 normal, inout
 
 // A blow says nothing about what comes after it: its impulse is forgotten where the next substep begins (push_bodies).
 void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
-    if (with_push == 0u) return;
+    if (with_push != PUSH_FIRST) return;
     p.pulse.x = p.pulse.w != 0.0 ? 0.0 : p.pulse.x;
     p.pulse.w = speedAt(p, normal, t) < -stiff.w ? 1.0 : 0.0;
 }

@@ -42,6 +42,10 @@ GPU_NAMESPACE_BEGIN
 // With no more contacts than this one workgroup walks through all colors: its barriers cost less than dispatches.
 #define FEW_CONTACTS 1024
 
+// The first pass of a substep notes blows; what is pressed in it is no blow to the passes after.
+#define PUSH_FIRST 1
+#define PUSH_AGAIN 2
+
 #define LOAD_CARRIED 0.75
 #define LOAD_FOLLOWED 0.2 /* of the difference, a step */
 
@@ -94,7 +98,7 @@ struct SolverPush {
     vec4 soft;        // of two bodies that move: push per overlap, 1/s; share of the mass; share of the impulse; most push, m/s
     vec4 stiff;       // the same where one does not move; w: least speed that bounces, m/s
     uint color;       // the color, or the first of the rest
-    uint with_push;   // 1 while overlap is pushed out
+    uint with_push;   // 0, or, while overlap is pushed out, PUSH_*
     uint pad[2];
 };
 

@@ -216,7 +216,7 @@ TEST(LongHardScenes, hard_29_determinism) {
     brittle::BodyOrder backward = brittle::orderById(*contents);
     std::ranges::reverse(backward.body_at);
     const auto make = [&](const brittle::WorldContents& of, uint32_t group_size) {
-        return std::move(*brittle::World::create(engine_test::device(), of, {}, {0, group_size}));
+        return std::move(*brittle::World::create(engine_test::device(), of, {}, {0, 0, group_size}));
     };
     const auto whole = make(*contents, 64), other = make(*contents, 256), resumed = make(*contents, 128);
     const uint64_t expected = hashAfter(*whole, scene.step.steps);

@@ -3,6 +3,7 @@
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "tests/engine/test_device.h"
 #include "tests/support/rigid_bodies.h"
+#include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -97,7 +98,7 @@ brittle::WorldContents heap() {
 }
 
 std::unique_ptr<World> worldOf(const brittle::WorldContents& contents, uint32_t group_size = 0) {
-    auto world = World::create(engine_test::device(), contents, {}, {0, group_size});
+    auto world = World::create(engine_test::device(), contents, {}, {0, 0, group_size});
     EXPECT_TRUE(world);
     return std::move(*world);
 }
@@ -267,7 +268,7 @@ TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
     WorldContents contents;
     for (int k = 0; k < 5; ++k)
         ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.99 * k, 0})));
-    auto world = World::create(engine_test::device(), contents, {}, {3, 0});
+    auto world = World::create(engine_test::device(), contents, {}, {.pairs = 3});
     ASSERT_TRUE(world);
     const uint64_t before = hashOf(**world);
     const auto done = (*world)->step(4);
@@ -275,6 +276,59 @@ TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
     EXPECT_EQ(done.error().code, engine::ErrorCode::Capacity);
     EXPECT_NE(done.error().message.find("finds 4 pairs"), std::string::npos) << done.error().message;
     EXPECT_EQ(hashOf(**world), before);
+}
+
+TEST(World, SaysHowManyContactsItHadNoRoomFor) {
+    WorldContents contents;
+    for (int k = 0; k < 5; ++k)
+        ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.99 * k, 0})));
+    auto tight = World::create(engine_test::device(), contents, {}, {.contacts = 3}),
+         enough = World::create(engine_test::device(), contents, {}, {.contacts = 4}),
+         roomy = World::create(engine_test::device(), contents);
+    ASSERT_TRUE(tight && enough && roomy);
+    const uint64_t before = hashOf(**tight);
+    const auto done = (*tight)->step(4);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, engine::ErrorCode::Capacity);
+    EXPECT_NE(done.error().message.find("finds 4 contacts, there is room for 3; raise the budget of contacts"), std::string::npos)
+        << done.error().message;
+    EXPECT_EQ(hashOf(**tight), before);
+    run(**enough, 4);
+    run(**roomy, 4);
+    EXPECT_EQ(hashOf(**enough), hashOf(**roomy));
+}
+
+TEST(World, WithoutContactsBodiesFallThroughEachOther) {
+    WorldContents contents;
+    for (int k = 0; k < 3; ++k)
+        ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.9 * k, 0})));
+    StepSettings settings;
+    settings.contacts = false;
+    settings.sleeping = true;
+    auto world = World::create(engine_test::device(), contents, settings);
+    ASSERT_TRUE(world);
+    run(**world, 60);
+    const auto bodies = (*world)->bodies();
+    ASSERT_TRUE(bodies);
+    const int substeps = 60 * 4;
+    const double h = 1.0 / 240, fallen = 9.81 * h * h * substeps * (substeps + 1) / 2;
+    for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR((*bodies)[k].offset.y, 0.9 * k - fallen, 1e-4);
+    EXPECT_EQ(countsOf(**world).pairs, 0u);
+}
+
+// Seven passes over the contacts of a stack leave less to be done than one.
+TEST(World, MoreIterationsComeCloserToRest) {
+    const auto speedAfter = [](uint32_t iterations) {
+        brittle::SceneDescription scene = *brittle::makeBuiltinScene("stack_20");
+        scene.step.iterations = iterations;
+        support::SceneRun stack(scene);
+        stack.step(5);
+        return stack.fastest();
+    };
+    const double once = speedAfter(1), often = speedAfter(7);
+    EXPECT_GT(once, 0);
+    EXPECT_LT(often, 0.5 * once);
 }
 
 // Two crowds of sixty boxes each fly into each other: then there are more pairs than there is room for at first.
@@ -292,7 +346,7 @@ WorldContents crowds() {
 TEST(World, MakesRoomForMorePairsAndGoesOnAsIfItHadHadIt) {
     const WorldContents contents = crowds();
     auto grown = World::create(engine_test::device(), contents),
-         roomy = World::create(engine_test::device(), contents, {}, {20000, 0});
+         roomy = World::create(engine_test::device(), contents, {}, {.pairs = 20000});
     ASSERT_TRUE(grown && roomy);
     run(**grown, 2);
     EXPECT_LT(countsOf(**grown).pairs, 4000u);

@@ -123,7 +123,7 @@ Result<SimulationReport> simulate(engine::Device& device, const StagedScene& sta
     if (!settings) return about(settings.error());
     const auto steps = stepsOf(staged.scene.step, seconds);
     if (!steps) return steps.error();
-    const brittle::WorldBudget budget = {staged.scene.budgets.pairs, group_size};
+    const brittle::WorldBudget budget = {staged.scene.budgets.pairs, staged.scene.budgets.contacts, group_size};
     const auto world = brittle::World::create(device, staged.contents, *settings, budget);
     if (!world) return about(world.error());
     Simulation simulation(device, staged, **world, *steps);

@@ -345,6 +345,8 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.gravity = hasEffect(scene, "gravity") ? scene.gravity : Double3{0, 0, 0};
     s.dt = scene.step.dt;
     s.substeps = scene.step.substeps;
+    s.iterations = scene.step.iterations;
+    s.contacts = hasEffect(scene, "contacts");
     s.contact_hertz = scene.step.contact_hertz;
     s.contact_damping = scene.step.contact_damping;
     s.push_out = scene.step.push_out;

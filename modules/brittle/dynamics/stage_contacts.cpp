@@ -72,6 +72,7 @@ void recordBoxes(const Step& s) {
 }
 
 engine::Result<void> recordContacts(const Step& s) {
+    if (!s.settings.contacts) return {};
     recordBroadPhase(s.record, broadPhaseOf(s));
     s.record.commands().beginLabel("narrow_phase");
     recordRecall(s);

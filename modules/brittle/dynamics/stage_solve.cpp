@@ -16,7 +16,9 @@ gpu::vec4 softness(double hertz, double damping, double h, double last) {
     return {static_cast<float>(omega / a1), static_cast<float>(a2 * a3), static_cast<float>(a3), static_cast<float>(last)};
 }
 
-enum class Sweep : uint8_t { Push, Relax, Bounce };
+enum class Sweep : uint8_t { Push, PushAgain, Relax, Bounce };
+
+uint32_t pushWord(Sweep sweep) { return sweep == Sweep::Push ? PUSH_FIRST : sweep == Sweep::PushAgain ? PUSH_AGAIN : 0; }
 
 // What one workgroup walks through: all colors behind the wide ones, or, where there are few contacts, all.
 void recordRestOf(const Step& s, gpu::SolverPush push, Sweep sweep) {
@@ -34,30 +36,32 @@ void recordColor(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t colo
 }
 
 void recordPass(const Step& s, gpu::SolverPush push, Sweep sweep) {
-    const bool many = s.b.sizes.pairs > FEW_CONTACTS;
-    push.with_push = sweep == Sweep::Push ? 1 : 0;
+    const bool many = s.b.sizes.contacts > FEW_CONTACTS;
+    push.with_push = pushWord(sweep);
     for (uint32_t color = 0; many && color < WIDE_COLORS; color++)
         recordColor(s, push, sweep, color);
     recordRestOf(s, push, sweep);
 }
 
+uint32_t passes(const Step& s) { return s.settings.contacts ? s.settings.iterations : 0; }
+
 void recordSubstep(const Step& s, gpu::SolverPush push) {
     const StepBuffers& b = s.b.step;
     s.record.run("push_bodies", kBodies, push,
                  {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies});
-    recordPass(s, push, Sweep::Push);
+    for (uint32_t k = 0; k < passes(s); k++)
+        recordPass(s, push, k == 0 ? Sweep::Push : Sweep::PushAgain);
     s.record.run("move_bodies", kBodies, push, {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
-    recordPass(s, push, Sweep::Relax);
+    for (uint32_t k = 0; k < passes(s); k++)
+        recordPass(s, push, Sweep::Relax);
 }
-
-bool bounces(const Step& s) { return s.settings.bounce_threshold < 1e6; }
 
 // Pairs that have contact points and are to be solved.
 void recordList(const Step& s) {
     const StepBuffers& b = s.b.step;
     constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
     s.record.scan(kPairs, b.touches, b.sums, b.contact_offsets,
-                  {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
+                  {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.contacts, 0, 0, 0}});
     s.record.compact(kPairs, b.contact_offsets, b.contact_pairs);
 }
 
@@ -89,13 +93,14 @@ gpu::SolverPush solverPush(const Step& s) {
 }
 
 void recordColors(const Step& s) {
+    if (!s.settings.contacts) return;
     const StepBuffers& b = s.b.step;
     const auto& counts = s.record.counts();
     s.record.commands().beginLabel("colors");
     recordList(s);
     s.record.clear({b.body_colors});
     s.record.commands().fill(b.bids, NO_INDEX);
-    s.record.runGroups("color_contacts", s.record.groupsOf(COUNT_ONCE), s.b.sizes.pairs,
+    s.record.runGroups("color_contacts", s.record.groupsOf(COUNT_ONCE), s.b.sizes.contacts,
                        {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
                         b.contact_slots, b.color_start, s.record.args()});
     recordAdjacency(s);
@@ -106,12 +111,13 @@ void recordSolve(const Step& s) {
     const StepBuffers& b = s.b.step;
     const gpu::SolverPush push = solverPush(s);
     s.record.commands().beginLabel("solve");
+    if (!s.settings.contacts) s.record.clear({b.adjacency_start}); // nothing pushes
     s.record.run(
         "prepare_contacts", kContacts, push,
         {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push);
-    if (bounces(s)) recordPass(s, push, Sweep::Bounce);
+    if (s.bounces) recordPass(s, push, Sweep::Bounce);
     s.record.run("keep_impulses", kContacts, engine::NoPush{}, {s.record.counts(), b.solver_contacts, s.now.contacts});
     s.record.commands().endLabel();
 }

@@ -15,6 +15,7 @@ struct Step {
     engine::KernelLibrary& kernels;
     Recorder& record;
     bool many_lanes; // the device has them
+    bool bounces;    // some body does
 };
 
 void recordBoxes(const Step& step);

@@ -27,6 +27,7 @@ Result<void> checkSettings(const StepSettings& s) {
         if (!(std::fabs(g) <= 1e4)) return refuse("gravity is no number or beyond 1e4 m/s2");
     if (!(s.dt >= 1e-6 && s.dt <= 1)) return refuse("a step takes " + std::to_string(s.dt) + " s; give it 1e-6 to 1");
     if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
+    if (s.iterations < 1 || s.iterations > 64) return refuse(std::to_string(s.iterations) + " iterations; give 1 to 64");
     if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
         return refuse("contacts of that frequency or damping; give 0 to 1e4");
     if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
@@ -49,7 +50,7 @@ public:
     DeviceWorld(engine::Device& device, BodyOrder order, WorldContents contents, WorldBuffers buffers,
                 const StepSettings& settings, const WorldBudget& budget)
         : device_(device), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, budget.group_size}}), order_(std::move(order)),
-          contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings), grows_(budget.pairs == 0) {}
+          contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings), budget_(budget) {}
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
@@ -73,7 +74,7 @@ public:
             if (!words) return words.error();
             const uint32_t needed = (*words)[STATUS_NEEDED + COUNT_BOX_PAIRS];
             const bool lacks_pairs = (*words)[STATUS_FAILED] != 0 && needed > b_.sizes.pairs;
-            const bool can_grow = grows_ && needed <= mostPairs(device_);
+            const bool can_grow = budget_.pairs == 0 && needed <= mostPairs(device_);
             const auto mended = lacks_pairs && can_grow ? grow(needed) : failureOf(*words);
             if (!mended) return mended;
         }
@@ -163,8 +164,14 @@ public:
 
 private:
     Result<void> recordStep(Recorder& record, uint32_t parity) {
-        const Step step = {
-            settings_, b_, b_.memory[1 - parity], b_.memory[parity], kernels_, record, device_.subgroupSize() >= kManyLanes};
+        const Step step = {settings_,
+                           b_,
+                           b_.memory[1 - parity],
+                           b_.memory[parity],
+                           kernels_,
+                           record,
+                           device_.subgroupSize() >= kManyLanes,
+                           settings_.contacts && bounce()};
         record.clear({BufferView(b_.counts).sub(0, 4 * STATUS_FAILED)});
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
@@ -173,6 +180,10 @@ private:
         recordSolve(step);
         recordEnd(step);
         return {};
+    }
+
+    bool bounce() const {
+        return std::ranges::any_of(contents_.shapes, [](const auto& shape) { return shape.inverse_inertia[1].w > 0; });
     }
 
     Result<void> submit(uint32_t parity) {
@@ -205,7 +216,7 @@ private:
         if (!saved) return saved.error();
         const std::vector<BufferView> was = stateViews();
         const uint32_t room = std::min(needed + needed / 2, mostPairs(device_));
-        auto larger = makeWorldBuffers(device_, contents_, room, settings_.sleeping);
+        auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, settings_.sleeping);
         if (!larger) return larger.error();
         std::swap(b_, *larger);
         Upload upload;
@@ -231,11 +242,15 @@ private:
         if (words[STATUS_FAILED] == 0) return {};
         const uint32_t needed = words[STATUS_NEEDED + COUNT_BOX_PAIRS];
         if (needed > b_.sizes.pairs)
-            return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " finds " + std::to_string(needed) +
-                                                  " pairs of pieces near each other, there is room for " +
-                                                  std::to_string(b_.sizes.pairs) +
-                                                  (grows_ ? ", the most of this device; use fewer pieces or spread them out"
-                                                          : "; raise the budget of pairs")};
+            return Error{ErrorCode::Capacity,
+                         "step " + std::to_string(made_ + 1) + " finds " + std::to_string(needed) +
+                             " pairs of pieces near each other, there is room for " + std::to_string(b_.sizes.pairs) +
+                             (budget_.pairs == 0 ? ", the most of this device; use fewer pieces or spread them out"
+                                                 : "; raise the budget of pairs")};
+        if (const uint32_t contacts = words[STATUS_NEEDED + COUNT_CONTACTS]; contacts > b_.sizes.contacts)
+            return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " finds " + std::to_string(contacts) +
+                                                  " contacts, there is room for " + std::to_string(b_.sizes.contacts) +
+                                                  "; raise the budget of contacts"};
         return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " failed with status " +
                                               std::to_string(words[STATUS_FAILED]) + ": a piece is near too many others"};
     }
@@ -260,7 +275,7 @@ private:
     WorldContents contents_; // in that order, to be made anew with more room
     WorldBuffers b_;
     StepSettings settings_;
-    bool grows_;
+    WorldBudget budget_;
     std::unique_ptr<engine::Commands> commands_[2];
     bool submitted_[2] = {false, false};
     uint64_t made_ = 0;
@@ -279,10 +294,10 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     BodyOrder order = orderById(contents);
     WorldContents sorted = inOrder(contents, order);
     const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
-    auto buffers = makeWorldBuffers(device, sorted, room, settings.sleeping);
+    auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, settings.sleeping);
     if (!buffers) return buffers.error();
     auto world = std::make_unique<DeviceWorld>(device, std::move(order), std::move(sorted), std::move(*buffers), settings,
-                                               WorldBudget{budget.pairs, group_size});
+                                               WorldBudget{budget.pairs, budget.contacts, group_size});
     if (auto recorded = world->record(); !recorded) return recorded.error();
     return std::unique_ptr<World>(std::move(world));
 }

@@ -18,8 +18,10 @@ namespace brittle {
 
 struct StepSettings {
     Double3 gravity = {0, -9.81, 0};
-    double dt = 1.0 / 60; // s
-    uint32_t substeps = 4;
+    double dt = 1.0 / 60;      // s
+    uint32_t substeps = 4;     // 1 to 64
+    uint32_t iterations = 1;   // over all contacts, with push and without, in each substep: 1 to 64
+    bool contacts = true;      // without them bodies fly and fall through each other, and nothing is looked for or solved
     double contact_hertz = 30; // of the spring that pushes overlap out, no more than an eighth of the substeps a second
     double contact_damping = 10;
     double push_out = 3;         // m/s, the most that overlap is pushed out with
@@ -36,6 +38,7 @@ struct StepSettings {
 // How much there is room for; what is 0 is chosen by the contents, and grows when it is too small.
 struct WorldBudget {
     uint32_t pairs = 0;
+    uint32_t contacts = 0; // pairs that touch; 0: as many as there are pairs
     uint32_t group_size =
         0; // lanes of a workgroup where a lane is an element (Fracture::create); states are the same, bit for bit
 };

@@ -55,8 +55,10 @@ StepBuffers layOutStep(engine::ScratchArena& arena, const WorldSizes& n) {
     const auto take = [&](uint64_t count, uint64_t size) { return arena.take(count * size); };
     s.box_low = take(n.pieces, 16);
     s.box_high = take(n.pieces, 16);
-    for (BufferView* view : {&s.recalled, &s.fresh, &s.touches, &s.contact_pairs, &s.contact_slots})
+    for (BufferView* view : {&s.recalled, &s.fresh, &s.touches})
         *view = take(n.pairs, 4);
+    for (BufferView* view : {&s.contact_pairs, &s.contact_slots})
+        *view = take(n.contacts, 4);
     for (BufferView* view : {&s.fresh_slots, &s.contact_offsets})
         *view = take(n.pairs + 1ull, 4);
     s.sums = take((std::max(n.pairs, n.bodies) + SCAN_BLOCK - 1ull) / SCAN_BLOCK, 4);
@@ -66,18 +68,18 @@ StepBuffers layOutStep(engine::ScratchArena& arena, const WorldSizes& n) {
     s.narrow_arguments = take(1, kNarrowPhaseArgumentBytes);
     s.solver_bodies = take(n.bodies, sizeof(gpu::SolverBody));
     s.spins = take(n.bodies, 16);
-    s.solver_contacts = take(n.pairs, sizeof(gpu::SolverContact));
+    s.solver_contacts = take(n.contacts, sizeof(gpu::SolverContact));
     for (BufferView* view : {&s.parents, &s.islands, &s.rests})
         *view = take(n.sleeping ? n.bodies : 0, 4);
     s.body_colors = take(n.bodies, 8);
     s.bids = take(n.bodies, 4);
-    s.waiting = take(n.pairs, 8);
+    s.waiting = take(n.contacts, 8);
     s.color_start = take(COLORS + 2, 4);
     s.adjacency_counts = take(n.bodies, 4);
     s.adjacency_cursors = take(n.bodies, 4);
     s.adjacency_start = take(n.bodies + 1ull, 4);
-    s.loose_adjacency = take(2ull * n.pairs, 4);
-    s.adjacency = take(2ull * n.pairs, 4);
+    s.loose_adjacency = take(2ull * n.contacts, 4);
+    s.adjacency = take(2ull * n.contacts, 4);
     return s;
 }
 
@@ -155,12 +157,14 @@ uint32_t mostPairs(const Device& device) {
     return static_cast<uint32_t>(std::min<uint64_t>(device.limits().maxStorageBufferRange / kLargest, UINT32_MAX / 4));
 }
 
-Result<WorldBuffers> makeWorldBuffers(Device& device, const WorldContents& contents, uint32_t pairs, bool sleeping) {
+Result<WorldBuffers> makeWorldBuffers(Device& device, const WorldContents& contents, uint32_t pairs, uint32_t contacts,
+                                      bool sleeping) {
     if (const uint32_t most = mostPairs(device); pairs > most)
         return Error{ErrorCode::Capacity, "a budget of " + std::to_string(pairs) + " pairs, the device has room for " +
                                               std::to_string(most) + "; use fewer pieces or a smaller budget"};
     WorldBuffers b;
-    b.sizes = {static_cast<uint32_t>(contents.bodies.size()), static_cast<uint32_t>(contents.pieces.size()), pairs, sleeping};
+    b.sizes = {static_cast<uint32_t>(contents.bodies.size()), static_cast<uint32_t>(contents.pieces.size()), pairs,
+               contacts == 0 ? pairs : std::min(contacts, pairs), sleeping};
     b.broad_phase = {b.sizes.pieces, pairs, chosenSort(b.sizes.pieces, device.isCpu())};
     b.movers =
         static_cast<uint32_t>(std::ranges::count_if(contents.bodies, [](const auto& body) { return body.offset.w != 0; }));

@@ -15,7 +15,7 @@
 namespace brittle {
 
 struct WorldSizes {
-    uint32_t bodies = 0, pieces = 0, pairs = 0;
+    uint32_t bodies = 0, pieces = 0, pairs = 0, contacts = 0;
     bool sleeping = false;
 };
 
@@ -51,9 +51,9 @@ struct WorldBuffers {
 // The most pairs there can be room for: all of what the solver knows of them is bound at once.
 uint32_t mostPairs(const engine::Device& device);
 
-// Fills what the contents say and clears the rest; pairs: at most mostPairs. Errors: Capacity, with the list that the device
-// cannot bind; Device.
+// Fills what the contents say and clears the rest; pairs: at most mostPairs; contacts: 0 for as many as pairs. Errors:
+// Capacity, with the list that the device cannot bind; Device.
 engine::Result<WorldBuffers> makeWorldBuffers(engine::Device& device, const WorldContents& contents, uint32_t pairs,
-                                              bool sleeping);
+                                              uint32_t contacts, bool sleeping);
 
 } // namespace brittle

@@ -78,8 +78,8 @@ constexpr SceneKey kSceneKeys[] = {
 constexpr SceneKey kStepKeys[] = {
     {"dt", at<&StepDescription::dt>, from(1e-6, 0.5), "s", "of one step"},
     {"steps", at<&StepDescription::steps>, from(0, 1e9), "", "how many are simulated"},
-    {"substeps", at<&StepDescription::substeps>, from(1, 256), "", "of one step, in which contacts are solved"},
-    {"iterations", at<&StepDescription::iterations>, from(1, 256), "", "over all contacts in a substep"},
+    {"substeps", at<&StepDescription::substeps>, from(1, 64), "", "of one step, in which contacts are solved"},
+    {"iterations", at<&StepDescription::iterations>, from(1, 64), "", "over all contacts in a substep"},
     {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
      "soft impulses, or the hard mode for great mass ratios and deep overlap"},
     {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e5), "1/s", "stiffness of soft contacts"},
@@ -95,7 +95,7 @@ constexpr SceneKey kBudgetKeys[] = {
     {"bodies", at<&BudgetDescription::bodies>, from(0, kMostElements), "", "at most; 0: what the scene needs"},
     {"pieces", at<&BudgetDescription::pieces>, from(0, kMostElements), "", "convex ones, at most; 0: what the scene needs"},
     {"pairs", at<&BudgetDescription::pairs>, from(0, kMostElements), "", "of pieces that are near, at most; 0: what is needed"},
-    {"contacts", at<&BudgetDescription::contacts>, from(0, kMostElements), "", "manifolds, at most; 0: what is needed"},
+    {"contacts", at<&BudgetDescription::contacts>, from(0, kMostElements), "", "pairs that touch, at most; 0: what is needed"},
 };
 
 constexpr SceneKey kCameraKeys[] = {
