@@ -6,7 +6,9 @@
 //
 // Both bodies are pushed at one and the same point, which is B's: A's arms reach for it wherever the bodies have got to. Arms that
 // stay with each body for themselves part as the bodies slide along each other, and the pair turns itself: an implosion of 200
-// hulls lost 1e-3 of its angular momentum, now 1e-7.
+// hulls lost 1e-3 of its angular momentum, now 1e-7. Where one does not move there is nothing to keep, and what slides far on it
+// must not be pushed at a point that it has left: then arms stay with their bodies.
+//
 // Wants `solver_bodies` and `solver_contacts` declared, and the push constants of SolverPush.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
@@ -14,6 +16,7 @@
 struct Touching {
     Moving a, b;
     vec3 moved;               // of B against A since the step began
+    vec3 slid;                // the same, where A's arms follow B
     vec4 turned_a, turned_b;
 };
 
@@ -24,11 +27,11 @@ float separationOf(SolverPoint p, Touching t, vec3 normal) {
 }
 
 void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {
-    push(t.a, -impulse, -cross(arm_a + t.moved, impulse));
+    push(t.a, -impulse, -cross(arm_a + t.slid, impulse));
     push(t.b, impulse, cross(arm_b, impulse));
 }
 
-vec3 slipAt(Touching t, vec3 arm_a, vec3 arm_b) { return velocityAt(t.b, arm_b) - velocityAt(t.a, arm_a + t.moved); }
+vec3 slipAt(Touching t, vec3 arm_a, vec3 arm_b) { return velocityAt(t.b, arm_b) - velocityAt(t.a, arm_a + t.slid); }
 
 // Of separation, along the normal.
 float speedAt(SolverPoint p, vec3 normal, Touching t) { return dot(normal, slipAt(t, p.arm_a.xyz, p.arm_b.xyz)); }
@@ -137,7 +140,9 @@ void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
 
 Touching touchingOf(uvec4 ids) {
     SolverBody a = solver_bodies[ids.x], b = solver_bodies[ids.y];
-    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, a.turned, b.turned);
+    vec3 moved = b.moved.xyz - a.moved.xyz;
+    bool both_move = a.velocity.w != 0.0 && b.velocity.w != 0.0;
+    return Touching(movingOf(a), movingOf(b), moved, both_move ? moved : vec3(0.0), a.turned, b.turned);
 }
 
 void keepMotion(uint body, Moving m) {

@@ -89,14 +89,15 @@ void main() {
         center_a += memory[pair].arm_a[k].xyz / float(points);
         center_b += memory[pair].arm_b[k].xyz / float(points);
     }
-    vec3 slid = p.way + center_b - center_a; // B's center from A's, where both were one when the points were found
+    bool fixed_ = p.a.inverse_mass == 0.0 || p.b.inverse_mass == 0.0;
+    // B's center from A's, where both were one when the points were found (lib/solve_contact.glsl).
+    vec3 slid = fixed_ ? vec3(0.0) : p.way + center_b - center_a;
     float reach = 0.0;
     for (uint k = 0u; k < points; k++) {
         reach += length(memory[pair].arm_a[k].xyz - center_a) / float(points);
         solver_contacts[c].points[k] = pointOf(pair, k, p, slid, normal.xyz);
     }
     float twist = dot(normal.xyz, spinBy(p.a, normal.xyz) + spinBy(p.b, normal.xyz));
-    bool fixed_ = p.a.inverse_mass == 0.0 || p.b.inverse_mass == 0.0;
     solver_contacts[c].ids = uvec4(ids.xy, points, pair);
     solver_contacts[c].normal = normal;
     solver_contacts[c].tangent = tangent;

@@ -19,15 +19,16 @@ vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
     vec4 kept = solver_contacts[c].rub, rub = isBlow(c, ids.z) ? vec4(0.0) : kept;
     vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
-    vec3 moved = is_b ? vec3(0.0) : solver_bodies[ids.y].moved.xyz - solver_bodies[ids.x].moved.xyz;
+    bool follows = !is_b && solver_bodies[ids.y].velocity.w != 0.0; // lib/solve_contact.glsl
+    vec3 slid = follows ? solver_bodies[ids.y].moved.xyz - solver_bodies[ids.x].moved.xyz : vec3(0.0);
     vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
-    twist = cross((is_b ? center_b : center_a) + moved, slide) + rub.z * normal;
+    twist = cross((is_b ? center_b : center_a) + slid, slide) + rub.z * normal;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         vec4 pulse = solver_contacts[c].points[k].pulse;
         vec3 pressed = (pulse.w != 0.0 ? 0.0 : pulse.x) * normal;
         sum += pressed;
         vec3 arm_a = solver_contacts[c].points[k].arm_a.xyz, arm_b = solver_contacts[c].points[k].arm_b.xyz;
-        twist += cross((is_b ? arm_b : arm_a) + moved, pressed);
+        twist += cross((is_b ? arm_b : arm_a) + slid, pressed);
     }
     return sum;
 }

@@ -63,7 +63,7 @@ struct Heap {
     std::vector<gpu::SolverContact> contacts;
     Push pushOn(uint32_t entry) const {
         const gpu::SolverContact& c = contacts[entry / 2];
-        return pushOf(c, entry % 2 == 1, moved[c.ids.y] - moved[c.ids.x]);
+        return pushOf(c, entry % 2 == 1, bodies[c.ids.y].moves() ? Vector(moved[c.ids.y] - moved[c.ids.x]) : Vector(Vector::Zero()));
     }
     std::vector<uint32_t> start = {0}, adjacency; // as order_adjacency makes them
 };

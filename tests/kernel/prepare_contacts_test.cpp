@@ -111,6 +111,7 @@ struct Expected {
     }
     // B's arm, from A: they part as the bodies slide, but impulses are to meet both at one point.
     Vector reachOf(const Vector& arm_a) const {
+        if (!a.moves() || !b.moves()) return arm_a;
         return arm_a + b.place() - a.place() + meanArm(memory.arm_b) - meanArm(memory.arm_a);
     }
     // Speeds along the normal of all points: rows of the motion.

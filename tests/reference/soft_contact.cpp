@@ -150,7 +150,8 @@ void SoftContact::beginStep(const RigidBody& on_a, const RigidBody& on_b) {
         p.separation_then = dot(normal, way);
         p.was_blow = false;
     }
-    slid = on_b.place + center_b - on_a.place - center_a;
+    follows = on_a.moves() && on_b.moves();
+    slid = follows ? on_b.place + center_b - on_a.place - center_a : Point{0, 0, 0};
     reach = 0;
     for (const SoftPoint& p : points)
         reach += length(p.arm_a - center_a) / kPoints;
@@ -204,7 +205,7 @@ double SoftContact::separationOf(const SoftPoint& p, const RigidBody& on_a, cons
 }
 
 Point SoftContact::reachOf(const Point& arm_a, const RigidBody& on_a, const RigidBody& on_b) const {
-    return arm_a + slid + on_b.moved - on_a.moved;
+    return follows ? arm_a + slid + on_b.moved - on_a.moved : arm_a;
 }
 
 double SoftContact::speedAt(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const {

@@ -90,6 +90,7 @@ private:
     void resistSliding(RigidBody& on_a, RigidBody& on_b, double most);
 
     Point center_a = {0, 0, 0}, center_b = {0, 0, 0};
+    bool follows = false;   // A's arms do B's points; where one does not move, arms stay
     Point slid = {0, 0, 0}; // B's center from A's when the step began
     double reach = 0; // mean distance of the points from their center
     double twist_mass = 0;

@@ -35,25 +35,27 @@ void recordColor(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t colo
                  push, {s.b.step.color_start, s.b.step.solver_contacts, s.b.step.solver_bodies});
 }
 
-void recordPass(const Step& s, gpu::SolverPush push, Sweep sweep) {
+// The wide ones begin with another color in every substep: what is solved first loses to all that comes after, and a pair that
+// always did would not be pushed out of each other where it is jammed in.
+void recordPass(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t first = 0) {
     const bool many = s.b.sizes.contacts > FEW_CONTACTS;
     push.with_push = pushWord(sweep);
     for (uint32_t color = 0; many && color < WIDE_COLORS; color++)
-        recordColor(s, push, sweep, color);
+        recordColor(s, push, sweep, (color + first) % WIDE_COLORS);
     recordRestOf(s, push, sweep);
 }
 
 uint32_t passes(const Step& s) { return s.settings.contacts ? s.settings.iterations : 0; }
 
-void recordSubstep(const Step& s, gpu::SolverPush push) {
+void recordSubstep(const Step& s, gpu::SolverPush push, uint32_t substep) {
     const StepBuffers& b = s.b.step;
     s.record.run("push_bodies", kBodies, push,
                  {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies});
     for (uint32_t k = 0; k < passes(s); k++)
-        recordPass(s, push, k == 0 ? Sweep::Push : Sweep::PushAgain);
+        recordPass(s, push, k == 0 ? Sweep::Push : Sweep::PushAgain, substep);
     s.record.run("move_bodies", kBodies, push, {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
     for (uint32_t k = 0; k < passes(s); k++)
-        recordPass(s, push, Sweep::Relax);
+        recordPass(s, push, Sweep::Relax, substep);
 }
 
 // Pairs that have contact points and are to be solved.
@@ -116,7 +118,7 @@ void recordSolve(const Step& s) {
         "prepare_contacts", kContacts, push,
         {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
     for (uint32_t k = 0; k < s.settings.substeps; k++)
-        recordSubstep(s, push);
+        recordSubstep(s, push, k);
     if (s.bounces) recordPass(s, push, Sweep::Bounce);
     s.record.run("keep_impulses", kContacts, engine::NoPush{}, {s.record.counts(), b.solver_contacts, s.now.contacts});
     s.record.commands().endLabel();

@@ -14,7 +14,7 @@ namespace {
 using Problem = std::optional<SceneProblem>;
 
 // kg. Their inverses, and those of their inertia, are floats.
-constexpr double kLightest = 1e-12, kHeaviest = 1e15;
+constexpr double kLightest = 1e-12, kHeaviest = 1e13;
 
 struct Place {
     SectionId section;

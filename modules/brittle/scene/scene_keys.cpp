@@ -56,7 +56,7 @@ constexpr std::string_view kEffects[] = {"gravity",         "contacts",   "frict
 constexpr uint32_t kDirections[] = {6, 14, 26, 62};
 
 constexpr Allowed kAnything;
-constexpr double kEndOfWorld = 1e9, kFastest = 1e5, kLargest = 1e5, kMostElements = 10'000'000;
+constexpr double kEndOfWorld = 1e6, kFastest = 1e4, kLargest = 1e5, kMostElements = 10'000'000;
 
 constexpr Allowed from(double lower, double upper) { return {.lower = lower, .upper = upper}; }
 constexpr Allowed above(double lower, double upper) { return {.lower = lower, .upper = upper, .above_lower = true}; }
@@ -82,10 +82,10 @@ constexpr SceneKey kStepKeys[] = {
     {"iterations", at<&StepDescription::iterations>, from(1, 64), "", "over all contacts in a substep"},
     {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
      "soft impulses, or the hard mode for great mass ratios and deep overlap"},
-    {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e5), "1/s", "stiffness of soft contacts"},
+    {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e4), "1/s", "stiffness of soft contacts; an eighth of the substeps a second at most counts"},
     {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},
     {"push_out", at<&StepDescription::push_out>, from(0, 1e3), "m/s", "at most so fast overlap is undone"},
-    {"margin", at<&StepDescription::margin>, from(0, 10), "m", "contacts are looked for at this distance already"},
+    {"margin", at<&StepDescription::margin>, from(0, 1), "m", "contacts are looked for at this distance already"},
     {"recycling", at<&StepDescription::recycling>, kAnything, "", "contacts at rest keep their anchors from step to step"},
     {"axes", at<&StepDescription::axes>, oneOf(kAxes), "",
      "separating axes: all of two hulls, or a fixed set, which is looser and cheaper"},
@@ -164,7 +164,7 @@ constexpr auto kBodyKeys = joined(
         {"velocity", at<&BodyDescription::velocity>, from(-kFastest, kFastest), "m/s", "of the center of mass"},
         {"spin", at<&BodyDescription::spin>, from(-kFastest, kFastest), "rad/s", "angular velocity"},
         {"density", at<&BodyDescription::density>, above(0, 1e6), "kg/m3", "1000 where neither it nor mass is given"},
-        {"mass", at<&BodyDescription::mass>, above(0, 1e15), "kg", "instead of density"},
+        {"mass", at<&BodyDescription::mass>, above(0, 1e13), "kg", "instead of density"},
         {"material", at<&BodyDescription::material>, oneOf(kMaterials), "", "that it breaks as; without one it does not break"},
     }),
     kCellKeys);
