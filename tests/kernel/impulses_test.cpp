@@ -41,8 +41,8 @@ struct Push {
     }
 };
 
-// On body B; on A it is the opposite at the same point, wherever B has moved to. What a point was hit with counts no more, and friction no more where
-// any point was hit.
+// On body B; on A it is the opposite at the same point, wherever B has moved to. What a point was hit with counts no more, and
+// friction no more where any point was hit.
 Push pushOf(const gpu::SolverContact& c, bool on_b, const Vector& moved) {
     Push push;
     const Vector from_a = on_b ? Vector::Zero() : moved;
@@ -52,7 +52,8 @@ Push pushOf(const gpu::SolverContact& c, bool on_b, const Vector& moved) {
         if (c.points[k].pulse.w == 0)
             push.add(sign * double{c.points[k].pulse.x} * normal, from_a + xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
     if (isBlow(c)) return push;
-    push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)), from_a + xyz(on_b ? c.center_b : c.center_a));
+    push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)),
+             from_a + xyz(on_b ? c.center_b : c.center_a));
     push.twist += sign * double{c.rub.z} * normal;
     return push;
 }
@@ -63,7 +64,8 @@ struct Heap {
     std::vector<gpu::SolverContact> contacts;
     Push pushOn(uint32_t entry) const {
         const gpu::SolverContact& c = contacts[entry / 2];
-        return pushOf(c, entry % 2 == 1, bodies[c.ids.y].moves() ? Vector(moved[c.ids.y] - moved[c.ids.x]) : Vector(Vector::Zero()));
+        return pushOf(c, entry % 2 == 1,
+                      bodies[c.ids.y].moves() ? Vector(moved[c.ids.y] - moved[c.ids.x]) : Vector(Vector::Zero()));
     }
     std::vector<uint32_t> start = {0}, adjacency; // as order_adjacency makes them
 };

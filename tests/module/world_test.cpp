@@ -290,7 +290,8 @@ TEST(World, SaysHowManyContactsItHadNoRoomFor) {
     const auto done = (*tight)->step(4);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, engine::ErrorCode::Capacity);
-    EXPECT_NE(done.error().message.find("finds 4 contacts, there is room for 3; raise the budget of contacts"), std::string::npos)
+    EXPECT_NE(done.error().message.find("finds 4 contacts, there is room for 3; raise the budget of contacts"),
+              std::string::npos)
         << done.error().message;
     EXPECT_EQ(hashOf(**tight), before);
     run(**enough, 4);

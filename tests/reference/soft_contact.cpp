@@ -8,10 +8,10 @@
 namespace reference {
 namespace {
 
-constexpr double kLoadCarried = 0.75;  // of what a point has carried of late, the share that does not make it give way
+constexpr double kLoadCarried = 0.75; // of what a point has carried of late, the share that does not make it give way
 constexpr double kLoadFollowed = 0.2; // of what it carries now, a step
-constexpr double kNoPull = 1e-3;       // of what all points press: what would pull less than that is to press with nothing
-constexpr double kDoubt = 0.02;        // of the mean diagonal: speeds that hardly any impulse gives are not asked for
+constexpr double kNoPull = 1e-3;      // of what all points press: what would pull less than that is to press with nothing
+constexpr double kDoubt = 0.02;       // of the mean diagonal: speeds that hardly any impulse gives are not asked for
 
 using Four = SoftContact::Four;
 using Matrix = std::array<Four, SoftContact::kPoints>;

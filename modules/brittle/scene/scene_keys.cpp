@@ -82,7 +82,8 @@ constexpr SceneKey kStepKeys[] = {
     {"iterations", at<&StepDescription::iterations>, from(1, 64), "", "over all contacts in a substep"},
     {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
      "soft impulses, or the hard mode for great mass ratios and deep overlap"},
-    {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e4), "1/s", "stiffness of soft contacts; an eighth of the substeps a second at most counts"},
+    {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e4), "1/s",
+     "stiffness of soft contacts; an eighth of the substeps a second at most counts"},
     {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},
     {"push_out", at<&StepDescription::push_out>, from(0, 1e3), "m/s", "at most so fast overlap is undone"},
     {"margin", at<&StepDescription::margin>, from(0, 1), "m", "contacts are looked for at this distance already"},
@@ -169,13 +170,13 @@ constexpr auto kBodyKeys = joined(
     }),
     kCellKeys);
 
-constexpr auto kColliderKeys =
-    joined(std::to_array<SceneKey>({
-               {"name", at<&ColliderDescription::name>, kAnything, "", "for messages"},
-               {"shape", kInShape<ColliderDescription, &ShapeDescription::kind>, oneOf(kShapes), "",
-                "a plane bounds all below it, where its frame's y axis is up; a mesh is taken as the triangles it is"},
-           }),
-           kPlacedKeys<ColliderDescription>);
+constexpr auto kColliderKeys = joined(std::to_array<SceneKey>({
+                                          {"name", at<&ColliderDescription::name>, kAnything, "", "for messages"},
+                                          {"shape", kInShape<ColliderDescription, &ShapeDescription::kind>, oneOf(kShapes), "",
+                                           "a plane bounds what is up to 10 m below it and 500 m from the middle of the "
+                                           "bodies, where its frame's y axis is up; a mesh is taken as the triangles it is"},
+                                      }),
+                                      kPlacedKeys<ColliderDescription>);
 
 constexpr SceneSection kSections[] = {
     {SectionId::Scene, "", false, kSceneKeys, "At the top of the file."},
