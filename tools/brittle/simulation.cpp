@@ -23,7 +23,7 @@ Result<uint32_t> stepsOf(const brittle::StepDescription& step, std::optional<dou
     if (steps > kMostSteps)
         return Error{ErrorCode::BadInput, brittle::formatNumber(*seconds) + " s are " + brittle::formatNumber(steps) +
                                               " steps; ask for fewer seconds, 1e9 steps at most"};
-    return static_cast<uint32_t>(std::max(steps, 0.0));
+    return static_cast<uint32_t>(std::max(steps, *seconds > 0 ? 1.0 : 0.0));
 }
 
 Error aboutScene(const StagedScene& staged, const Error& error) {
