@@ -9,9 +9,18 @@
 // hulls lost 1e-3 of its angular momentum, now 1e-7. Where one does not move there is nothing to keep, and what slides far on it
 // must not be pushed at a point that it has left: then arms stay with their bodies.
 //
-// Wants `solver_bodies` and `solver_contacts` declared, and the push constants of SolverPush.
+// Wants `solver_bodies` and `solver_contacts` declared. Its push constants are those of SolverPush.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
+
+layout(push_constant) uniform Push {
+    vec4 gravity;
+    vec4 soft;
+    vec4 stiff;
+    uint color;
+    uint with_push;
+    uint pad[2];
+};
 
 struct Touching {
     Moving a, b;
@@ -140,9 +149,7 @@ void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
 
 Touching touchingOf(uvec4 ids) {
     SolverBody a = solver_bodies[ids.x], b = solver_bodies[ids.y];
-    vec3 moved = b.moved.xyz - a.moved.xyz;
-    bool both_move = a.velocity.w != 0.0 && b.velocity.w != 0.0;
-    return Touching(movingOf(a), movingOf(b), moved, both_move ? moved : vec3(0.0), a.turned, b.turned);
+    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, slideBetween(a, b), a.turned, b.turned);
 }
 
 void keepMotion(uint body, Moving m) {

@@ -24,6 +24,11 @@ void push(inout Moving m, vec3 impulse, vec3 twist) {
     m.spin += spinBy(m, twist);
 }
 
+// How far B has slid against A since the step began, where A's arms follow it (lib/solve_contact.glsl): not where one stands.
+vec3 slideBetween(SolverBody a, SolverBody b) {
+    return a.velocity.w != 0.0 && b.velocity.w != 0.0 ? b.moved.xyz - a.moved.xyz : vec3(0.0);
+}
+
 vec3 velocityAt(Moving m, vec3 arm) { return m.velocity + cross(m.spin, arm); }
 
 // How much speed along v an impulse along u at the arm gives.

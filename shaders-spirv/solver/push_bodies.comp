@@ -19,8 +19,7 @@ vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
     vec4 kept = solver_contacts[c].rub, rub = isBlow(c, ids.z) ? vec4(0.0) : kept;
     vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
-    bool follows = !is_b && solver_bodies[ids.y].velocity.w != 0.0; // lib/solve_contact.glsl
-    vec3 slid = follows ? solver_bodies[ids.y].moved.xyz - solver_bodies[ids.x].moved.xyz : vec3(0.0);
+    vec3 slid = is_b ? vec3(0.0) : slideBetween(solver_bodies[ids.x], solver_bodies[ids.y]);
     vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
     twist = cross((is_b ? center_b : center_a) + slid, slide) + rub.z * normal;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {

@@ -9,14 +9,6 @@ FLAT_KERNEL;
 READS(0, uint, color_start);
 UPDATES(1, SolverContact, solver_contacts);
 UPDATES(2, SolverBody, solver_bodies);
-layout(push_constant) uniform Push {
-    vec4 gravity;
-    vec4 soft;
-    vec4 stiff;
-    uint color;
-    uint with_push;
-    uint pad[2];
-};
 #include "lib/solve_contact.glsl"
 
 void main() {

@@ -15,14 +15,6 @@ READS(0, uint, counts);
 READS(1, uint, color_start);
 UPDATES(2, SolverContact, solver_contacts);
 UPDATES(3, SolverBody, solver_bodies);
-layout(push_constant) uniform Push {
-    vec4 gravity;
-    vec4 soft;
-    vec4 stiff;
-    uint color;
-    uint with_push;
-    uint pad[2];
-};
 #include "lib/solve_contact.glsl"
 
 void solve(uint c) {

@@ -264,49 +264,47 @@ TEST(World, GoesOnFromASavedStateAsIfNothingHadBeen) {
     EXPECT_FALSE(second->restore(std::span(*saved).first(saved->size() - 1)));
 }
 
-TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
+// Cubes above each other.
+WorldContents tower(int cubes, double apart) {
     WorldContents contents;
-    for (int k = 0; k < 5; ++k)
-        ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.99 * k, 0})));
-    auto world = World::create(engine_test::device(), contents, {}, {.pairs = 3});
-    ASSERT_TRUE(world);
-    const uint64_t before = hashOf(**world);
-    const auto done = (*world)->step(4);
+    for (int k = 0; k < cubes; ++k)
+        EXPECT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, apart * k, 0})));
+    return contents;
+}
+
+void expectNoRoom(World& world, std::string_view why) {
+    const uint64_t before = hashOf(world);
+    const auto done = world.step(4);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, engine::ErrorCode::Capacity);
-    EXPECT_NE(done.error().message.find("finds 4 pairs"), std::string::npos) << done.error().message;
-    EXPECT_EQ(hashOf(**world), before);
+    EXPECT_NE(done.error().message.find(why), std::string::npos) << done.error().message;
+    EXPECT_EQ(hashOf(world), before);
+}
+
+TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
+    const WorldContents contents = tower(5, 0.99);
+    auto world = World::create(engine_test::device(), contents, {}, {.pairs = 3});
+    ASSERT_TRUE(world);
+    expectNoRoom(**world, "finds 4 pairs");
 }
 
 TEST(World, SaysHowManyContactsItHadNoRoomFor) {
-    WorldContents contents;
-    for (int k = 0; k < 5; ++k)
-        ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.99 * k, 0})));
+    const WorldContents contents = tower(5, 0.99);
     auto tight = World::create(engine_test::device(), contents, {}, {.contacts = 3}),
          enough = World::create(engine_test::device(), contents, {}, {.contacts = 4}),
          roomy = World::create(engine_test::device(), contents);
     ASSERT_TRUE(tight && enough && roomy);
-    const uint64_t before = hashOf(**tight);
-    const auto done = (*tight)->step(4);
-    ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().code, engine::ErrorCode::Capacity);
-    EXPECT_NE(done.error().message.find("finds 4 contacts, there is room for 3; raise the budget of contacts"),
-              std::string::npos)
-        << done.error().message;
-    EXPECT_EQ(hashOf(**tight), before);
+    expectNoRoom(**tight, "finds 4 contacts, there is room for 3; raise the budget of contacts");
     run(**enough, 4);
     run(**roomy, 4);
     EXPECT_EQ(hashOf(**enough), hashOf(**roomy));
 }
 
 TEST(World, WithoutContactsBodiesFallThroughEachOther) {
-    WorldContents contents;
-    for (int k = 0; k < 3; ++k)
-        ASSERT_TRUE(brittle::addBody(contents, support::box({1, 1, 1}, {0, 0.9 * k, 0})));
     StepSettings settings;
     settings.contacts = false;
     settings.sleeping = true;
-    auto world = World::create(engine_test::device(), contents, settings);
+    auto world = World::create(engine_test::device(), tower(3, 0.9), settings);
     ASSERT_TRUE(world);
     run(**world, 60);
     const auto bodies = (*world)->bodies();

@@ -1,6 +1,7 @@
 // The broad phase on its own, next to Bullet's dynamic trees: pairs of boxes that meet.
 #include "modules/brittle/dynamics/broad_phase.h"
 #include "modules/brittle/fracture/fetch.h"
+#include "modules/brittle/fracture/upload.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tools/bench/peer_bullet.h"
 #include "tools/bench/phase_run.h"
@@ -106,7 +107,7 @@ private:
         brittle::Upload both;
         both.add(std::span<const gpu::vec4>(low), low_);
         both.add(std::span<const gpu::vec4>(high), high_);
-        return copyNow(device_, both);
+        return both.send(device_);
     }
 
     engine::Device& device_;

@@ -227,10 +227,7 @@ void addBench(CLI::App& app, int& exit_code) {
     for (CLI::Option* other : {cells, shatters, variants, colliders})
         command->get_option("--dynamics")->excludes(other);
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
-    command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
-    command->add_option("--group-size", options->bench.group_size, "lanes of a workgroup, a power of two from 8 to 256")
-        ->check(groupSize)
-        ->option_text("N [64]");
+    addDeviceOptions(*command, options->device, options->bench.group_size);
     command->callback([options, &exit_code] { exit_code = runBench(*options); });
 }
 

@@ -3,6 +3,7 @@
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/fracture/fetch.h"
+#include "modules/brittle/fracture/upload.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "shaders-spirv/shared/contact.h"
@@ -22,8 +23,7 @@ using brittle::turnedBy;
 using engine::Buffer;
 using engine::Result;
 
-constexpr double kDepth = 0.01;     // m, and as much apart
-constexpr uint32_t kManyLanes = 32; // in a subgroup, from which on a pair has more of them
+constexpr double kDepth = 0.01; // m, and as much apart
 
 struct Pairs {
     std::vector<gpu::BodyState> bodies;
@@ -106,7 +106,7 @@ public:
         axes_ = buffers.make(sizeof(gpu::AxisRecord) * uint64_t{capacity_}, "axes");
         arguments_ = buffers.make(brittle::kNarrowPhaseArgumentBytes, "arguments");
         if (auto made = buffers.status(); !made) return made;
-        return copyNow(device_, upload);
+        return upload.send(device_);
     }
 
     // Milliseconds of device time.
@@ -118,7 +118,7 @@ public:
         options.duration = 0; // nothing moves
         auto recorded = brittle::recordNarrowPhase(
             commands, kernels_, {{records_, vertices_, faces_, corners_, edges_}, pieces_, bodies_, pairs_, count_, capacity_},
-            options, {manifolds_, axes_, arguments_}, device_.subgroupSize() >= kManyLanes);
+            options, {manifolds_, axes_, arguments_}, brittle::hasManyLanes(device_));
         if (!recorded) return recorded.error();
         commands.endLabel();
         if (auto done = commands.submitAndWait(); !done) return done.error();

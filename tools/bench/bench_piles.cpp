@@ -6,6 +6,7 @@
 #include "tests/support/body_overlaps.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/peer_bullet.h"
+#include "tools/bench/phase_run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -25,8 +26,6 @@ struct BulletMargin {
     double margin; // m
 };
 constexpr BulletMargin kMargins[] = {{"bullet", 0.04}, {"bullet_5mm", 0.005}};
-
-Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
 
 // Principal moments of a body that moves.
 Double3 momentsOf(const gpu::BodyShape& shape) {

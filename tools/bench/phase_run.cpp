@@ -25,15 +25,6 @@ engine::Buffer Buffers::make(uint64_t bytes, std::string_view name) {
     return {};
 }
 
-Result<void> copyNow(engine::Device& device, const brittle::Upload& upload) {
-    const auto staging = upload.stage(device);
-    if (!staging) return staging.error();
-    engine::Commands commands(device);
-    if (auto begun = commands.begin(); !begun) return begun;
-    upload.copy(commands, *staging);
-    return commands.submitAndWait();
-}
-
 Result<double> labelMs(const engine::Commands& commands, std::string_view label) {
     const auto timings = commands.timings();
     if (!timings) return timings.error();

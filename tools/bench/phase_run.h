@@ -3,7 +3,6 @@
 
 #include "engine/commands.h"
 #include "modules/brittle/dynamics/world_contents.h"
-#include "modules/brittle/fracture/upload.h"
 #include "tools/bench/bench.h"
 
 #include <random>
@@ -36,9 +35,6 @@ private:
     engine::Device& device_;
     engine::Result<void> status_;
 };
-
-// Copies what was added and waits.
-engine::Result<void> copyNow(engine::Device& device, const brittle::Upload& upload);
 
 // Milliseconds of device time under this label; the commands have been waited for.
 engine::Result<double> labelMs(const engine::Commands& commands, std::string_view label);

@@ -22,8 +22,7 @@ ExitCode exitCode(engine::ErrorCode code) {
     return kInternalError;
 }
 
-} // namespace
-
+// Empty if it is right, else what is wrong. Whether the device takes as many is its own question.
 std::string groupSize(const std::string& text) {
     uint32_t lanes = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), lanes);
@@ -32,9 +31,22 @@ std::string groupSize(const std::string& text) {
     return "\"" + text + "\" is no power of two from 8 to 256";
 }
 
+} // namespace
+
 std::string someText(const std::string& text) { return text.empty() ? "an empty name; leave the option out instead" : ""; }
 
-std::string notANumber(const std::string& text) { return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : ""; }
+CLI::Option* inRange(CLI::Option* option, double low, double high) {
+    return option->check(CLI::Range(low, high))->check([](const std::string& text) {
+        return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number" : "";
+    });
+}
+
+void addDeviceOptions(CLI::App& command, std::string& device, uint32_t& group_size, const std::string& same) {
+    command.add_option("--device", device, "a part of its name, or its index; see brittle devices");
+    command.add_option("--group-size", group_size, "lanes of a workgroup, a power of two from 8 to 256" + same)
+        ->check(groupSize)
+        ->option_text("N [64]");
+}
 
 int fail(const engine::Error& error) {
     std::string line = error.message;

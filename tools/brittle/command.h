@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <string>
 
 namespace cli {
@@ -19,13 +20,14 @@ void addScenes(CLI::App& app, int& exit_code);
 void addSimulate(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code); // in tools/bench
 
-// A check of the option that sets the lanes of a workgroup: empty if it is right, else what is wrong. Whether the device takes
-// as many is its own question.
-std::string groupSize(const std::string& text);
-
-// Checks: of a name that may not be empty, and of what ranges let pass.
+// A check of a name that may not be empty.
 std::string someText(const std::string& text);
-std::string notANumber(const std::string& text);
+
+// A number from `low` to `high`; ranges alone let pass what is none.
+CLI::Option* inRange(CLI::Option* option, double low, double high);
+
+// --device and --group-size; `same` ends the sentence on the latter, such as "; the motion is the same".
+void addDeviceOptions(CLI::App& command, std::string& device, uint32_t& group_size, const std::string& same = "");
 
 // Prints "brittle: MESSAGE" as one line on stderr.
 int fail(const engine::Error& error);

@@ -16,6 +16,8 @@ namespace cli {
 constexpr const char* kMotionHelp = "the file to write: .glb with an animation, .mp4, or .png of the last moment; "
                                     "NAME_%04d.png is a picture for every frame";
 
+constexpr double kMostSeconds = 1e6, kLeastFps = 0.001, kMostFps = 1000;
+
 // What is to be seen; outlives the output.
 struct Spectacle {
     engine::Device& device;

@@ -171,10 +171,8 @@ void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& option
     command.add_option("--relax", options->relax, "rounds in which each site moves to the middle of its cell: evener pieces")
         ->capture_default_str()
         ->check(CLI::Range(0u, 1000u));
-    command.add_option("--strength", options->strength, "of the hit, in joules where the model is in meters")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e12))
-        ->check(notANumber);
+    inRange(command.add_option("--strength", options->strength, "of the hit, in joules where the model is in meters"), 0, 1e12)
+        ->capture_default_str();
 }
 
 std::string heightAbove(const std::string& text) {
@@ -199,20 +197,12 @@ void addDrop(CLI::App& command, const std::shared_ptr<ShatterOptions>& options) 
             ->default_str(kHalfOfModel)
             ->check([](const std::string& text) { return text == kHalfOfModel ? "" : heightAbove(text); })
             ->option_text("[HEIGHT] [half of the model's]");
-    command
-        .add_option_function<double>(
-            "--seconds", [dropped](double seconds) { dropped().seconds = seconds; }, "with --drop: how long they are simulated")
-        ->needs(drop)
-        ->check(CLI::Range(0.0, 1e6))
-        ->check(notANumber)
-        ->option_text("SECONDS [3]");
-    command
-        .add_option_function<double>(
-            "--fps", [dropped](double fps) { dropped().fps = fps; }, "with --drop: frames a second")
-        ->needs(drop)
-        ->check(CLI::Range(0.001, 1000.0))
-        ->check(notANumber)
-        ->option_text("FPS [60]");
+    auto* seconds = command.add_option_function<double>(
+        "--seconds", [dropped](double s) { dropped().seconds = s; }, "with --drop: how long they are simulated");
+    inRange(seconds, 0, kMostSeconds)->needs(drop)->option_text("SECONDS [3]");
+    auto* fps = command.add_option_function<double>(
+        "--fps", [dropped](double f) { dropped().fps = f; }, "with --drop: frames a second");
+    inRange(fps, kLeastFps, kMostFps)->needs(drop)->option_text("FPS [60]");
 }
 
 // What falls has to meet something.
@@ -277,17 +267,11 @@ void addShatter(CLI::App& app, int& exit_code) {
     command->add_flag("--verify", options->verify,
                       "say in words what the check of the fragments found; nothing is written where it fails");
     command->add_option("--picture", options->picture, "also draw them into this PNG file")->check(someText);
-    command->add_option("--explode", options->explode, "in the picture, move fragments this many times further from the center")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 1000.0))
-        ->check(notANumber);
+    auto* explode = command->add_option("--explode", options->explode,
+                                        "in the picture, move fragments this many times further from the center");
+    inRange(explode, 0, 1000)->capture_default_str();
     command->add_flag("--json", options->as_json, "print one JSON object, errors measured");
-    command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
-    command
-        ->add_option("--group-size", options->group_size,
-                     "lanes of a workgroup, a power of two from 8 to 256; the fragments are the same")
-        ->check(groupSize)
-        ->option_text("N [64]");
+    addDeviceOptions(*command, options->device, options->group_size, "; the fragments are the same");
     command->callback([command, collider, options, &exit_code] {
         chooseColliders(*collider, *options);
         const bool aimed = options->pattern != brittle::Pattern::Uniform;

@@ -131,22 +131,14 @@ void addSimulate(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SimulateOptions>();
     command->add_option("SCENE", options->scene, kSceneHelp)->required();
     command->add_option("-o,--output", options->output, kMotionHelp)->check(someText);
-    command
-        ->add_option("--seconds", options->seconds, "how long, rounded up to whole steps; else as many steps as the scene says")
-        ->check(CLI::Range(0.0, 1e6))
-        ->check(notANumber);
-    command->add_option("--fps", options->fps, "frames a second, of animations, numbered pictures and films")
-        ->capture_default_str()
-        ->check(CLI::Range(0.001, 1000.0))
-        ->check(notANumber);
+    auto* seconds = command->add_option("--seconds", options->seconds,
+                                        "how long, rounded up to whole steps; else as many steps as the scene says");
+    inRange(seconds, 0, kMostSeconds);
+    auto* fps = command->add_option("--fps", options->fps, "frames a second, of animations, numbered pictures and films");
+    inRange(fps, kLeastFps, kMostFps)->capture_default_str();
     command->add_flag("--state-hash", options->state_hash, "print 64 bits that tell the last state of all bodies, and no more");
     command->add_flag("--json", options->as_json, "print one JSON object, the hash in it");
-    command->add_option("--device", options->device, "a part of its name, or its index; see brittle devices");
-    command
-        ->add_option("--group-size", options->group_size,
-                     "lanes of a workgroup, a power of two from 8 to 256; the motion is the same")
-        ->check(groupSize)
-        ->option_text("N [64]");
+    addDeviceOptions(*command, options->device, options->group_size, "; the motion is the same");
     command->callback([options, &exit_code] { exit_code = runSimulate(*options); });
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "engine/commands.h"
+#include "engine/device.h"
 #include "engine/kernel.h"
 #include "modules/brittle/mesh/mesh.h"
 
@@ -48,6 +49,9 @@ struct NarrowPhaseOutput {
 };
 
 constexpr uint32_t kNarrowPhaseArgumentBytes = 32;
+
+// Whether a pair has more lanes on it: where many run side by side.
+inline bool hasManyLanes(const engine::Device& device) { return device.subgroupSize() >= 32; }
 
 // Records the three kernels. BadInput for options out of range, Capacity for outputs that are too small.
 engine::Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary& kernels,

@@ -19,7 +19,6 @@ using engine::ErrorCode;
 using engine::Result;
 
 constexpr uint32_t kPairsPerPiece = 9, kLeastPairs = 1024; // as piles have them; there is more room made where it is needed
-constexpr uint32_t kManyLanes = 32; // in a subgroup, from which on a pair has more of them in the narrow phase
 
 Result<void> checkSettings(const StepSettings& s) {
     const auto refuse = [](const std::string& why) { return Error{ErrorCode::BadInput, "world: " + why}; };
@@ -150,7 +149,7 @@ public:
             upload.add(state.subspan(at, view.size), view);
             at += view.size;
         }
-        if (auto done = send(upload); !done) return done;
+        if (auto done = upload.send(device_); !done) return done;
         auto words = takeStock();
         if (!words) return words.error();
         return failureOf(*words);
@@ -164,14 +163,8 @@ public:
 
 private:
     Result<void> recordStep(Recorder& record, uint32_t parity) {
-        const Step step = {settings_,
-                           b_,
-                           b_.memory[1 - parity],
-                           b_.memory[parity],
-                           kernels_,
-                           record,
-                           device_.subgroupSize() >= kManyLanes,
-                           settings_.contacts && bounce()};
+        const Step step = {settings_, b_,     b_.memory[1 - parity], b_.memory[parity],
+                           kernels_,  record, hasManyLanes(device_), settings_.contacts && bounce()};
         record.clear({BufferView(b_.counts).sub(0, 4 * STATUS_FAILED)});
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
@@ -201,15 +194,6 @@ private:
         return states;
     }
 
-    Result<void> send(Upload& upload) {
-        auto staging = upload.stage(device_);
-        if (!staging) return staging.error();
-        engine::Commands commands(device_);
-        if (auto begun = commands.begin(); !begun) return begun;
-        upload.copy(commands, *staging);
-        return commands.submitAndWait();
-    }
-
     // Room for more pairs than that, and everything as it was.
     Result<void> grow(uint32_t needed) {
         const auto saved = save();
@@ -223,7 +207,7 @@ private:
         const std::vector<BufferView> now = stateViews();
         for (size_t k = 0, at = 0; k < was.size(); at += was[k].size, k++)
             upload.add(std::span(*saved).subspan(at, was[k].size), now[k].sub(0, was[k].size));
-        if (auto done = send(upload); !done) return done;
+        if (auto done = upload.send(device_); !done) return done;
         submitted_[0] = submitted_[1] = false;
         return record();
     }
@@ -296,8 +280,10 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
     auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, settings.sleeping);
     if (!buffers) return buffers.error();
-    auto world = std::make_unique<DeviceWorld>(device, std::move(order), std::move(sorted), std::move(*buffers), settings,
-                                               WorldBudget{budget.pairs, budget.contacts, group_size});
+    WorldBudget given = budget;
+    given.group_size = group_size;
+    auto world =
+        std::make_unique<DeviceWorld>(device, std::move(order), std::move(sorted), std::move(*buffers), settings, given);
     if (auto recorded = world->record(); !recorded) return recorded.error();
     return std::unique_ptr<World>(std::move(world));
 }

@@ -29,6 +29,15 @@ public:
             std::memcpy(staging->mapped() + part.offset, part.bytes.data(), part.bytes.size());
         return staging;
     }
+    // All at once, and waits for it.
+    engine::Result<void> send(engine::Device& device) const {
+        const auto staging = stage(device);
+        if (!staging) return staging.error();
+        engine::Commands commands(device);
+        if (auto begun = commands.begin(); !begun) return begun;
+        copy(commands, *staging);
+        return commands.submitAndWait();
+    }
     void copy(engine::Commands& commands, const engine::Buffer& staging) const {
         for (const Part& part : parts_)
             commands.copy(engine::BufferView(staging).sub(part.offset, part.bytes.size()),
