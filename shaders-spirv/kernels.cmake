@@ -141,7 +141,7 @@ kernel(narrow_phase/build_manifolds.comp)
 
 # Dynamics.
 foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
-        order_adjacency prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses end_step)
+        order_adjacency prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)
     kernel(solver/${name}.comp)
 endforeach()
 kernel(solver/solve_contacts.comp NAME bounce_contacts DEFINES BOUNCE=1)

@@ -9,6 +9,7 @@
 struct HullPair {
     HullRecord hull[2];
     uvec4 ids;       // pieces, bodies
+    uint planes;     // 1: A is one, 2: B
     mat3 axes[2];    // own axes to the frame's
     vec3 place[2];   // of the hull's center
     vec4 turn;       // the frame's axes to the world's
@@ -31,6 +32,9 @@ void loadPlaces(inout HullPair pair, float duration, vec3 gravity) {
     vec3 apart = vec3(b.sector.xyz - a.sector.xyz) * float(SECTOR_EDGE) + (b.offset.xyz - a.offset.xyz);
     pair.place[0] = vec3(0.0);
     pair.place[1] = turned(back, apart) + pair.axes[1] * pair.hull[1].center.xyz - pair.hull[0].center.xyz;
+    // A plane has no middle: it begins below the other hull, as it would anywhere else.
+    vec3 up = (pair.planes & 2u) != 0u ? pair.axes[1][1] : vec3(0.0, 1.0, 0.0);
+    if (pair.planes != 0u) pair.place[1] = dot(up, pair.place[1]) * up;
     vec3 falling = gravity * ((b.offset.w > 0.0 ? 1.0 : 0.0) - (a.offset.w > 0.0 ? 1.0 : 0.0));
     pair.motion = turned(back, b.velocity.xyz - a.velocity.xyz + duration * falling);
 }
@@ -39,6 +43,7 @@ HullPair loadPair(uvec2 of, NarrowPhasePush push) {
     HullPair pair;
     uvec4 a = pieces[of.x].ids, b = pieces[of.y].ids;
     pair.ids = uvec4(of, a.y, b.y);
+    pair.planes = (a.z & uint(PIECE_PLANE)) | (b.z & uint(PIECE_PLANE)) << 1;
     pair.hull[0] = hulls[a.x];
     pair.hull[1] = hulls[b.x];
     loadPlaces(pair, push.duration, push.gravity.xyz);

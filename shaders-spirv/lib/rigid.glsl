@@ -28,15 +28,30 @@ void turnAbout(uint axis, float angle, inout vec4 turn, inout vec3 own) {
 // McLachlan 1993): |L|^2 over the middle moment of inertia turns it about L, what is left turns it about one own axis at a time.
 // A top with two equal moments is exact so; of others the energy errs by the square of the step and does not drift. However thin
 // a rod is, nothing here divides small differences by its small moment. The own axes are the principal ones.
-vec4 turnFreely(vec3 inverse_moments, vec4 turn, vec3 momentum, float h) {
-    float least = min(inverse_moments.x, inverse_moments.y), most = max(inverse_moments.x, inverse_moments.y);
-    float middle = max(least, min(most, inverse_moments.z)), size = length(momentum);
-    vec3 rest = inverse_moments - middle, own = turned(turnBack(turn), momentum);
+//
+// Turns about own axes by more than a fraction of a radian would set it to a place of another energy: a splinter that a shot sets
+// spinning may have a hundred times as much there, with the same momentum. So they are made in parts, and beyond what these can
+// do the body keeps its own axes' places about L, as a top does, which costs no energy.
+const float kPartOfTurn = 0.25; // rad
+const float kMostParts = 128.0;
+
+void turnAboutOwnAxes(vec3 rest, float h, inout vec4 turn, inout vec3 own) {
     turnAbout(0u, 0.5 * h * rest.x * own.x, turn, own);
     turnAbout(1u, 0.5 * h * rest.y * own.y, turn, own);
     turnAbout(2u, h * rest.z * own.z, turn, own);
     turnAbout(1u, 0.5 * h * rest.y * own.y, turn, own);
     turnAbout(0u, 0.5 * h * rest.x * own.x, turn, own);
+}
+
+vec4 turnFreely(vec3 inverse_moments, vec4 turn, vec3 momentum, float h) {
+    float least = min(inverse_moments.x, inverse_moments.y), most = max(inverse_moments.x, inverse_moments.y);
+    float middle = max(least, min(most, inverse_moments.z)), size = length(momentum);
+    vec3 rest = inverse_moments - middle, own = turned(turnBack(turn), momentum);
+    // What each component can come to with this momentum and this energy.
+    vec3 most_own = min(vec3(size), sqrt(dot(own * own, inverse_moments) / inverse_moments)), angles = h * abs(rest) * most_own;
+    float parts = ceil(max(max(angles.x, angles.y), angles.z) / kPartOfTurn);
+    uint count = parts <= kMostParts ? max(uint(parts), 1u) : 0u;
+    for (uint k = 0u; k < count; k++) turnAboutOwnAxes(rest, h / float(count), turn, own);
     float angle = 0.5 * h * middle * size;
     vec4 common_ = size > 0.0 ? vec4(sin(angle) / size * momentum, cos(angle)) : vec4(0.0, 0.0, 0.0, 1.0);
     return normalize(turnAfter(common_, turn));

@@ -4,10 +4,13 @@
 // A point that is still apart may close its gap in this substep and no faster. One that overlaps is pushed out as a damped spring
 // would, which takes some of the impulse back as it gives; the solve without push then takes out the speed of that push.
 //
-// Both bodies are pushed at one and the same point, which is B's: A's arms reach for it wherever the bodies have got to. Arms that
-// stay with each body for themselves part as the bodies slide along each other, and the pair turns itself: an implosion of 200
-// hulls lost 1e-3 of its angular momentum, now 1e-7. Where one does not move there is nothing to keep, and what slides far on it
-// must not be pushed at a point that it has left: then arms stay with their bodies.
+// Both bodies are pushed at one and the same point, which stays with the smaller one: the other's arms reach for it wherever the
+// bodies have got to. Arms that stay with each body for themselves part as the bodies slide along each other, and the pair turns
+// itself: an implosion of 200 hulls lost 1e-3 of its angular momentum, now 1e-7. Where one does not move there is nothing to keep,
+// and what slides far on it must not be pushed at a point that it has left: then arms stay with their bodies.
+//
+// Effective masses are those of the beginning of the step while bodies have hardly turned or slid since. A rod that a blow has set
+// spinning yields a hundred times as much in the next substep: an impulse that goes by what it was would add energy without end.
 //
 // Wants `solver_bodies` and `solver_contacts` declared. Its push constants are those of SolverPush.
 #include "lib/solver_body.glsl"
@@ -25,8 +28,10 @@ layout(push_constant) uniform Push {
 struct Touching {
     Moving a, b;
     vec3 moved;               // of B against A since the step began
-    vec3 slid;                // the same, where A's arms follow B
+    vec3 slid_a, slid_b;      // by how much arms that follow have grown
     vec4 turned_a, turned_b;
+    bool presses_anew;        // effective masses along the normal may no longer be those of the beginning
+    bool rubs_anew;           // the others
 };
 
 vec3 shifted(vec4 turn, vec3 arm) { return turned(turn, arm) - arm; }
@@ -36,11 +41,11 @@ float separationOf(SolverPoint p, Touching t, vec3 normal) {
 }
 
 void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {
-    push(t.a, -impulse, -cross(arm_a + t.slid, impulse));
-    push(t.b, impulse, cross(arm_b, impulse));
+    push(t.a, -impulse, -cross(arm_a + t.slid_a, impulse));
+    push(t.b, impulse, cross(arm_b + t.slid_b, impulse));
 }
 
-vec3 slipAt(Touching t, vec3 arm_a, vec3 arm_b) { return velocityAt(t.b, arm_b) - velocityAt(t.a, arm_a + t.slid); }
+vec3 slipAt(Touching t, vec3 arm_a, vec3 arm_b) { return velocityAt(t.b, arm_b + t.slid_b) - velocityAt(t.a, arm_a + t.slid_a); }
 
 // Of separation, along the normal.
 float speedAt(SolverPoint p, vec3 normal, Touching t) { return dot(normal, slipAt(t, p.arm_a.xyz, p.arm_b.xyz)); }
@@ -57,8 +62,20 @@ vec3 demandOf(float separation, float pulse, vec4 spring) {
     return with_push != 0u ? vec3(max(spring.x * separation, -spring.w), spring.yz) : vec3(0.0, 1.0, 0.0);
 }
 
+float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
+
+// Of what an impulse along v gives along u, at a point.
+float yieldBetween(Touching t, vec3 arm_a, vec3 arm_b, vec3 u, vec3 v) {
+    return yieldAlong(t.a, arm_a + t.slid_a, u, v) + yieldAlong(t.b, arm_b + t.slid_b, u, v);
+}
+
+float massAt(SolverPoint p, vec3 normal, Touching t) {
+    float now = inverseOf(yieldBetween(t, p.arm_a.xyz, p.arm_b.xyz, normal, normal));
+    return t.presses_anew ? now : p.arm_b.w;
+}
+
 void solvePoint(inout SolverPoint p, float load, vec3 demand, vec3 normal, inout Touching t) {
-    float impulse = -p.arm_b.w * demand.y * (speedAt(p, normal, t) + demand.x) - demand.z * max(p.pulse.x - load, 0.0);
+    float impulse = -massAt(p, normal, t) * demand.y * (speedAt(p, normal, t) + demand.x) - demand.z * max(p.pulse.x - load, 0.0);
     float total = max(p.pulse.x + impulse, 0.0);
     pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - p.pulse.x) * normal);
     p.pulse.x = total;
@@ -88,7 +105,7 @@ void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec3 demands[MA
     }
     vec4 total = was - mass_share * (pressOf(c) * short_of) - impulse_share * max(was - loads, vec4(0.0));
     // Where a point would have to pull, what the others would be pressed with is too much: that is for the points one by one.
-    bool pulls = any(lessThan(total, vec4(-kNoPull * dot(was, vec4(1.0)))));
+    bool pulls = t.presses_anew || any(lessThan(total, vec4(-kNoPull * dot(was, vec4(1.0)))));
     total = pulls ? was : max(total, vec4(0.0));
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         if (k < points) pushApart(t, p[k].arm_a.xyz, p[k].arm_b.xyz, (total[k] - was[k]) * normal);
@@ -124,10 +141,15 @@ void resistTwist(inout vec4 rub, vec3 normal, float mass, float most, inout Touc
     t.b.spin += spinBy(t.b, twist * normal);
 }
 
+vec3 rubMassNow(Touching t, vec3 arm_a, vec3 arm_b, vec3 u, vec3 v) {
+    float uu = yieldBetween(t, arm_a, arm_b, u, u), uv = yieldBetween(t, arm_a, arm_b, u, v), vv = yieldBetween(t, arm_a, arm_b, v, v);
+    return inverseOf(uu * vv - uv * uv) * vec3(vv, -uv, uu);
+}
+
 void resistSliding(inout vec4 rub, uint c, vec3 normal, float most, inout Touching t) {
     vec3 tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
     vec3 arm_a = solver_contacts[c].center_a.xyz, arm_b = solver_contacts[c].center_b.xyz;
-    vec4 mass = solver_contacts[c].rub_mass;
+    vec3 mass = t.rubs_anew ? rubMassNow(t, arm_a, arm_b, tangent, across) : solver_contacts[c].rub_mass.xyz;
     vec3 slip = slipAt(t, arm_a, arm_b);
     vec2 speed = vec2(dot(slip, tangent), dot(slip, across));
     vec2 total = rub.xy - vec2(mass.x * speed.x + mass.y * speed.y, mass.y * speed.x + mass.z * speed.y);
@@ -142,14 +164,40 @@ void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
     for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) pressed += solver_contacts[c].points[k].pulse.x;
     vec4 rub = solver_contacts[c].rub;
     float most = normal.w * pressed;
-    resistTwist(rub, normal.xyz, solver_contacts[c].center_a.w, most * solver_contacts[c].center_b.w, t);
+    float yield_ = dot(normal.xyz, spinBy(t.a, normal.xyz) + spinBy(t.b, normal.xyz));
+    float twist_mass = t.rubs_anew ? inverseOf(yield_) : solver_contacts[c].center_a.w;
+    resistTwist(rub, normal.xyz, twist_mass, most * solver_contacts[c].center_b.w, t);
     resistSliding(rub, c, normal.xyz, most, t);
     solver_contacts[c].rub = rub;
 }
 
-Touching touchingOf(uvec4 ids) {
+float traceOf(SolverBody b) { return b.inertia.x + b.inertia.w + b.spin.w; }
+
+// How far a body has turned, times how unlike its moments of inertia are: 0 for a cube, 1.4 for a rod.
+float changeByTurn(SolverBody b) {
+    float trace = traceOf(b);
+    vec3 diagonal = vec3(b.inertia.x, b.inertia.w, b.spin.w), side = vec3(b.inertia.yz, b.moved.w);
+    float unlike = 3.0 * (dot(diagonal, diagonal) + 2.0 * dot(side, side)) - trace * trace;
+    return unlike > 0.0 ? length(b.turned.xyz) * sqrt(unlike) / trace : 0.0;
+}
+
+const float kHardlyTurned = 0.1, kHardlySlid = 0.05;
+
+// Whether arms that have grown by so much make effective masses others than when the step began.
+bool hasGrown(SolverBody a, SolverBody b, vec3 slid_a, vec3 slid_b) {
+    return dot(slid_a, slid_a) * traceOf(a) + dot(slid_b, slid_b) * traceOf(b) > kHardlySlid * (a.velocity.w + b.velocity.w);
+}
+
+vec3 beside(vec3 v, vec3 normal) { return v - dot(v, normal) * normal; }
+
+Touching touchingOf(uint c, uvec4 ids, vec3 normal) {
     SolverBody a = solver_bodies[ids.x], b = solver_bodies[ids.y];
-    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, slideBetween(a, b), a.turned, b.turned);
+    float arms = solver_contacts[c].rub_mass.w;
+    vec3 slid_a = followed(a, b, arms, false), slid_b = followed(a, b, arms, true);
+    bool has_turned = max(changeByTurn(a), changeByTurn(b)) > kHardlyTurned;
+    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, slid_a, slid_b, a.turned, b.turned,
+                    has_turned || hasGrown(a, b, beside(slid_a, normal), beside(slid_b, normal)),
+                    has_turned || hasGrown(a, b, slid_a, slid_b));
 }
 
 void keepMotion(uint body, Moving m) {
@@ -161,8 +209,8 @@ void keepMotion(uint body, Moving m) {
 void solveContact(uint c) {
     uvec4 ids = solver_contacts[c].ids;
     vec4 normal = solver_contacts[c].normal;
-    Touching t = touchingOf(ids);
-    vec4 limits = solver_contacts[c].rub_mass.w != 0.0 ? vec4(stiff.xyz, soft.w) : soft;
+    Touching t = touchingOf(c, ids, normal.xyz);
+    vec4 limits = solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft;
     pressContact(c, normal.xyz, ids.z, limits, t);
     rubContact(c, normal, ids.z, t);
     keepMotion(ids.x, t.a);
@@ -181,7 +229,7 @@ void bounceContact(uint c) {
     uvec4 ids = solver_contacts[c].ids;
     vec3 normal = solver_contacts[c].normal.xyz;
     float restitution = solver_contacts[c].tangent.w;
-    Touching t = touchingOf(ids);
+    Touching t = touchingOf(c, ids, normal.xyz);
     float lag = 0.5 * gravity.w * approachOf(t.a.inverse_mass, t.b.inverse_mass, normal, gravity.xyz);
     vec4 lacks = vec4(0.0), was = vec4(0.0);
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
@@ -190,10 +238,10 @@ void bounceContact(uint c) {
         was[k] = p.pulse.x;
     }
     vec4 together = was - pressOf(c) * lacks;
-    bool at_once = all(greaterThanEqual(together, vec4(0.0)));
+    bool at_once = !t.presses_anew && all(greaterThanEqual(together, vec4(0.0)));
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         SolverPoint p = solver_contacts[c].points[k];
-        float alone = max(was[k] - p.arm_b.w * lacksOf(p, normal, restitution, lag, t), 0.0), total = at_once ? together[k] : alone;
+        float alone = max(was[k] - massAt(p, normal, t) * lacksOf(p, normal, restitution, lag, t), 0.0), total = at_once ? together[k] : alone;
         pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - was[k]) * normal);
         solver_contacts[c].points[k].pulse.x = total;
     }

@@ -24,9 +24,10 @@ void push(inout Moving m, vec3 impulse, vec3 twist) {
     m.spin += spinBy(m, twist);
 }
 
-// How far B has slid against A since the step began, where A's arms follow it (lib/solve_contact.glsl): not where one stands.
-vec3 slideBetween(SolverBody a, SolverBody b) {
-    return a.velocity.w != 0.0 && b.velocity.w != 0.0 ? b.moved.xyz - a.moved.xyz : vec3(0.0);
+// How far the other body has got since the step began, for one whose arms follow it. `arms`: ARMS_*.
+vec3 followed(SolverBody a, SolverBody b, float arms, bool of_b) {
+    vec3 apart = b.moved.xyz - a.moved.xyz;
+    return arms != float(of_b ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW) ? vec3(0.0) : (of_b ? -apart : apart);
 }
 
 vec3 velocityAt(Moving m, vec3 arm) { return m.velocity + cross(m.spin, arm); }

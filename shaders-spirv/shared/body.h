@@ -21,12 +21,14 @@ struct BodyState {
 };
 
 struct BodyShape {
-    uvec4 pieces;            // first piece, count, 0, 0
+    uvec4 pieces;            // first piece, count, half the thickness of the thinnest piece as bits, 0
     vec4 inverse_inertia[3]; // rows, own axes, which are the principal ones: a diagonal; w: friction, restitution, radius about the center of mass that holds all pieces
 };
 
+#define PIECE_PLANE 1 /* bounds a half space: its hull lies wherever the other one is, below its body's own y axis */
+
 struct PieceRecord {
-    uvec4 ids; // hull, body, 0, 0
+    uvec4 ids; // hull, body, PIECE_* flags, 0
 };
 
 GPU_NAMESPACE_END

@@ -25,6 +25,7 @@ GPU_NAMESPACE_BEGIN
 #define COUNT_BODIES 24       /* of the world; none while all sleep */
 #define COUNT_ONCE 25         /* 1; 0 while all sleep */
 #define COUNT_AWAKE 26        /* bodies that move and do not sleep */
+#define COUNT_SWIFT 27        /* contacts, where any body is fast for its size, else 0 */
 
 // A bit of STATUS_FAILED: islands could not be joined.
 #define FAILED_ISLANDS 16u
@@ -49,6 +50,11 @@ GPU_NAMESPACE_BEGIN
 #define LOAD_CARRIED 0.75
 #define LOAD_FOLLOWED 0.2 /* of the difference, a step */
 
+// Impulses meet both bodies of a contact at one point (lib/solve_contact.glsl): whose arms follow the other's.
+#define ARMS_OF_A_FOLLOW 0
+#define ARMS_STAY 1 /* one of them does not move */
+#define ARMS_OF_B_FOLLOW 2
+
 // A body while it is solved. `moved` and `turned` count from the beginning of the step.
 struct SolverBody {
     vec4 velocity; // w: inverse mass
@@ -59,8 +65,8 @@ struct SolverBody {
 };
 
 struct SolverPoint {
-    vec4 arm_a; // of the same point as B's when the step began; w: separation at the beginning of the step
-    vec4 arm_b; // frozen since the contact was found; w: effective mass along the normal
+    vec4 arm_a; // of the same point when the step began, if one follows the other; w: separation at the beginning of the step
+    vec4 arm_b; // w: effective mass along the normal
     vec4 pulse; // impulse, the greatest of the step, speed of separation at the moment they meet, 1 after a blow
 };
 
@@ -73,7 +79,7 @@ struct SolverContact {
     vec4 center_b;  // w: mean distance of the points from their center
     vec4 rub;       // impulses along the tangent, across it, of twisting; w: unused
     vec4 loads;     // of the points: what of their impulse does not make them give way
-    vec4 rub_mass;  // effective mass in the tangent plane: 11, 12, 22; w: 1 where a body does not move
+    vec4 rub_mass;  // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
     vec4 press[MANIFOLD_POINTS]; // effective mass of all points together along the normal: a symmetric matrix
     SolverPoint points[MANIFOLD_POINTS];
 };
@@ -83,13 +89,13 @@ struct ContactMemory {
     uvec4 ids;     // body a, body b, points, color
     vec4 normal;   // w: friction
     vec4 tangent;  // w: restitution
-    vec4 rub;      // as in SolverContact; w: 1 where the arms are kept, 0 where they are new
+    vec4 rub;      // as in SolverContact; w: whose arms follow, where both bodies move: ARMS_OF_*_FOLLOW
     vec4 turn_a;   // of the bodies when the points were found
     vec4 turn_b;
     vec4 place;    // of B's center of mass then, from A's, own axes of A; w: of a pair without points, how far the hulls were apart at the least
     vec4 anchor_a[MANIFOLD_POINTS]; // own axes of A; w: impulse
     vec4 anchor_b[MANIFOLD_POINTS]; // own axes of B; w: feature, as bits
-    vec4 arm_a[MANIFOLD_POINTS];    // world axes, when the points were found
+    vec4 arm_a[MANIFOLD_POINTS];    // world axes, when the points were found; w: separation then
     vec4 arm_b[MANIFOLD_POINTS];    // w: what the point has carried of late, an impulse a substep
 };
 

@@ -1,16 +1,18 @@
-// A step begins: what the solver wants of each body.
+// A step begins: what the solver wants of each body, and whether any is fast for its size (lib/held_way.glsl).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/rigid.glsl"
-#include "shared/solver.h"
+#include "lib/held_way.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 READS(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
 WRITES(3, SolverBody, solver_bodies);
 WRITES(4, vec4, spins); // that the momentum was last brought up to
+WRITES(5, uint, shares); // of its way that it may go
+layout(push_constant) uniform Push { vec4 gravity; }; // w: length of the step
 
 void main() {
     uint b = flatIndex();
@@ -21,4 +23,7 @@ void main() {
                                   vec4(inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1]), vec4(0.0, 0.0, 0.0, inverse[1][2]),
                                   vec4(0.0, 0.0, 0.0, 1.0));
     spins[b] = vec4(state.spin.xyz, 0.0);
+    shares[b] = floatBitsToUint(1.0);
+    bool swift = isSwift(length(wayAhead(state.velocity.xyz, gravity)), gravity.w * length(state.spin.xyz), shapes[b]);
+    if (swift && state.offset.w != 0.0) counts[COUNT_SWIFT] = 1u;
 }

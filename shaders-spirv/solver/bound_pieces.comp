@@ -22,6 +22,13 @@ layout(push_constant) uniform Push {
 };
 
 const float kRounding = 1.0 / 4194304.0;
+const float kEndless = 4e6; // m, further than bodies can be
+
+// Of a plane, beyond its hull: along each axis as far as it leads there.
+vec3 endlessPart(vec4 turn) {
+    vec3 up = turned(turn, vec3(0.0, 1.0, 0.0));
+    return kEndless * sqrt(max(1.0 - up * up, vec3(0.0)));
+}
 
 void main() {
     uint p = flatIndex();
@@ -37,8 +44,9 @@ void main() {
         high = max(high, arm);
     }
     vec3 way = moves ? gravity.w * body.velocity.xyz : vec3(0.0), origin = vec3(body.sector.xyz) * float(SECTOR_EDGE) + body.offset.xyz;
-    low = origin + min(low, low + way) - margin;
-    high = origin + max(high, high + way) + margin;
+    vec3 beyond = (ids.z & uint(PIECE_PLANE)) != 0u ? endlessPart(body.turn) : vec3(0.0);
+    low = origin + min(low, low + way) - margin - beyond;
+    high = origin + max(high, high + way) + margin + beyond;
     low -= abs(low) * kRounding;
     high += abs(high) * kRounding;
     box_low[p] = vec4(low, uintBitsToFloat(ids.y));

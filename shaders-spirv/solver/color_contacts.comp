@@ -141,4 +141,5 @@ void main() {
     for (uint c = lane; c < total; c += LANES)
         contact_slots[c] = atomicAdd(cursor[min(memory[contact_pairs[c]].ids.w, NO_COLOR)], 1u);
     if (lane < WIDE_COLORS) publishCount(COUNT_FIRST_COLOR + lane, total > FEW_CONTACTS ? color_count[lane] : 0u, capacity);
+    if (lane == WIDE_COLORS) publishCount(COUNT_SWIFT, counts[COUNT_SWIFT] != 0u ? total : 0u, capacity);
 }

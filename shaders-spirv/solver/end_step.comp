@@ -1,9 +1,10 @@
-// A step ends: bodies stand where they have moved to. Where it failed they stay where they were, and it does not count.
+// A step ends: bodies stand where they have moved to, as far as they may go (lib/held_way.glsl). Where it failed they stay where
+// they were, and it does not count.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/rigid.glsl"
-#include "shared/solver.h"
+#include "lib/held_way.glsl"
 
 FLAT_KERNEL;
 READS(0, uint, counts);
@@ -12,6 +13,8 @@ READS(2, BodyShape, shapes);
 READS(3, SolverBody, solver_bodies);
 READS(4, vec4, spins);
 UPDATES(5, uint, steps);
+READS(6, uint, shares);
+layout(push_constant) uniform Push { vec4 gravity; }; // w: length of the step
 #include "lib/take_up_spin.glsl"
 
 // Whole sectors go over from the offset, which stays in [-SECTOR_EDGE / 2, SECTOR_EDGE / 2).
@@ -28,10 +31,19 @@ void main() {
     if (b == 0u) steps[STEPS_MADE]++;
     SolverBody s = solver_bodies[b];
     if (s.velocity.w == 0.0) return;
-    vec4 turn = normalize(turnAfter(s.turned, bodies[b].turn));
-    takeUpSpin(b, ownInverseInertia(shapes[b]), turn, s.spin.xyz);
-    moveTo(b, bodies[b].offset.xyz + s.moved.xyz);
+    vec4 from = bodies[b].turn, turn = normalize(turnAfter(s.turned, from));
+    mat3 own = ownInverseInertia(shapes[b]);
+    vec3 momentum = takeUpSpin(b, own, turn, s.spin.xyz), spin = s.spin.xyz;
+    float share = min(uintBitsToFloat(shares[b]), shareOfWay(s.moved.xyz, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
+    if (share < 1.0) {
+        vec4 held = normalize(turnAfter(shareOfTurn(s.turned, share), from)), back = turnAfter(held, turnBack(turn));
+        // Along with the body, or it would have another energy.
+        bodies[b].momentum.xyz = turned(back, momentum);
+        spin = turned(back, spin);
+        turn = held;
+    }
+    moveTo(b, bodies[b].offset.xyz + share * s.moved.xyz);
     bodies[b].turn = turn;
     bodies[b].velocity.xyz = s.velocity.xyz;
-    bodies[b].spin.xyz = s.spin.xyz;
+    bodies[b].spin.xyz = spin;
 }

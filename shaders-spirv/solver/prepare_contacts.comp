@@ -23,7 +23,8 @@ layout(push_constant) uniform Push { SolverPush push_; };
 struct Pair {
     Moving a, b;
     vec4 turn_a, turn_b;
-    vec3 way;
+    vec3 way, came; // from A to B, and what of that since the points were found
+    vec3 slid_a, slid_b; // of arms that follow, since the points were found
 };
 
 float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
@@ -35,10 +36,12 @@ float speedOfMeeting(float speed, float separation, Pair p, vec3 normal) {
     return speed < 0.0 ? -sqrt(max(now * now + 2.0 * gain * max(separation, 0.0), 0.0)) : speed;
 }
 
-SolverPoint pointOf(uint pair, uint k, Pair p, vec3 slid, vec3 normal) {
+SolverPoint pointOf(uint pair, uint k, Pair p, vec3 normal) {
     vec3 anchor_a = turned(p.turn_a, memory[pair].anchor_a[k].xyz), anchor_b = turned(p.turn_b, memory[pair].anchor_b[k].xyz);
-    vec3 arm_a = memory[pair].arm_a[k].xyz + slid, arm_b = memory[pair].arm_b[k].xyz;
-    float separation = dot(normal, p.way + anchor_b - anchor_a);
+    vec3 arm_a = memory[pair].arm_a[k].xyz + p.slid_a, arm_b = memory[pair].arm_b[k].xyz + p.slid_b;
+    // By differences: how far it is to the place of an endless plane says nothing.
+    vec3 left_a = anchor_a - memory[pair].arm_a[k].xyz, left_b = anchor_b - memory[pair].arm_b[k].xyz;
+    float separation = memory[pair].arm_a[k].w + dot(normal, p.came + left_b - left_a);
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
     float speed = speedOfMeeting(dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), separation, p, normal);
     return SolverPoint(vec4(arm_a, separation), vec4(arm_b, inverseOf(yield_)), vec4(memory[pair].anchor_a[k].w, 0.0, speed, 0.0));
@@ -58,14 +61,15 @@ vec3 rubMass(Pair p, vec3 arm_a, vec3 arm_b, vec3 u, vec3 v) {
 // others, such as the noise of opposite corners against the other two (Tikhonov 1963). Impulses are as even as they can be.
 const float kDoubt = 0.02; // d, of the mean diagonal
 
-mat4 pressMass(uint pair, uint points, Pair p, vec3 slid, vec3 normal) {
+mat4 pressMass(uint pair, uint points, Pair p, vec3 normal) {
     mat4 yields = mat4(1.0);
     float trace = 0.0;
     for (uint i = 0u; i < points; i++) {
-        vec3 twist_a = spinBy(p.a, cross(memory[pair].arm_a[i].xyz + slid, normal)), twist_b = spinBy(p.b, cross(memory[pair].arm_b[i].xyz, normal));
+        vec3 twist_a = spinBy(p.a, cross(memory[pair].arm_a[i].xyz + p.slid_a, normal));
+        vec3 twist_b = spinBy(p.b, cross(memory[pair].arm_b[i].xyz + p.slid_b, normal));
         for (uint j = 0u; j < points; j++)
-            yields[i][j] = p.a.inverse_mass + p.b.inverse_mass + dot(cross(memory[pair].arm_a[j].xyz + slid, normal), twist_a) +
-                           dot(cross(memory[pair].arm_b[j].xyz, normal), twist_b);
+            yields[i][j] = p.a.inverse_mass + p.b.inverse_mass + dot(cross(memory[pair].arm_a[j].xyz + p.slid_a, normal), twist_a) +
+                           dot(cross(memory[pair].arm_b[j].xyz + p.slid_b, normal), twist_b);
         trace += yields[i][i];
     }
     if (trace == 0.0) return mat4(0.0);
@@ -82,7 +86,8 @@ void main() {
     uvec4 ids = memory[pair].ids;
     vec4 normal = memory[pair].normal, tangent = memory[pair].tangent;
     Pair p = Pair(movingOf(solver_bodies[ids.x]), movingOf(solver_bodies[ids.y]), bodies[ids.x].turn, bodies[ids.y].turn,
-                  wayBetween(ids.x, ids.y));
+                  wayBetween(ids.x, ids.y), vec3(0.0), vec3(0.0), vec3(0.0));
+    p.came = p.way - turned(memory[pair].turn_a, memory[pair].place.xyz);
     vec3 center_a = vec3(0.0), center_b = vec3(0.0);
     uint points = min(ids.z, MANIFOLD_POINTS);
     for (uint k = 0u; k < points; k++) {
@@ -90,24 +95,27 @@ void main() {
         center_b += memory[pair].arm_b[k].xyz / float(points);
     }
     bool fixed_ = p.a.inverse_mass == 0.0 || p.b.inverse_mass == 0.0;
+    float arms = fixed_ ? float(ARMS_STAY) : memory[pair].rub.w;
     // B's center from A's, where both were one when the points were found (lib/solve_contact.glsl).
-    vec3 slid = fixed_ ? vec3(0.0) : p.way + center_b - center_a;
+    vec3 slid = p.way + center_b - center_a;
+    if (arms == float(ARMS_OF_A_FOLLOW)) p.slid_a = slid;
+    if (arms == float(ARMS_OF_B_FOLLOW)) p.slid_b = -slid;
     float reach = 0.0;
     for (uint k = 0u; k < points; k++) {
         reach += length(memory[pair].arm_a[k].xyz - center_a) / float(points);
-        solver_contacts[c].points[k] = pointOf(pair, k, p, slid, normal.xyz);
+        solver_contacts[c].points[k] = pointOf(pair, k, p, normal.xyz);
     }
     float twist = dot(normal.xyz, spinBy(p.a, normal.xyz) + spinBy(p.b, normal.xyz));
     solver_contacts[c].ids = uvec4(ids.xy, points, pair);
     solver_contacts[c].normal = normal;
     solver_contacts[c].tangent = tangent;
-    solver_contacts[c].center_a = vec4(center_a + slid, inverseOf(twist));
-    solver_contacts[c].center_b = vec4(center_b, reach);
-    mat4 press = pressMass(pair, points, p, slid, normal.xyz);
+    solver_contacts[c].center_a = vec4(center_a + p.slid_a, inverseOf(twist));
+    solver_contacts[c].center_b = vec4(center_b + p.slid_b, reach);
+    mat4 press = pressMass(pair, points, p, normal.xyz);
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
     solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
     vec4 loads = vec4(0.0);
     for (uint k = 0u; k < points; k++) loads[k] = float(LOAD_CARRIED) * memory[pair].arm_b[k].w;
     solver_contacts[c].loads = loads;
-    solver_contacts[c].rub_mass = vec4(rubMass(p, center_a + slid, center_b, tangent.xyz, cross(normal.xyz, tangent.xyz)), fixed_ ? 1.0 : 0.0);
+    solver_contacts[c].rub_mass = vec4(rubMass(p, center_a + p.slid_a, center_b + p.slid_b, tangent.xyz, cross(normal.xyz, tangent.xyz)), arms);
 }

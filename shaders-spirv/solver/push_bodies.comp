@@ -19,7 +19,7 @@ vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
     vec4 kept = solver_contacts[c].rub, rub = isBlow(c, ids.z) ? vec4(0.0) : kept;
     vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
-    vec3 slid = is_b ? vec3(0.0) : slideBetween(solver_bodies[ids.x], solver_bodies[ids.y]);
+    vec3 slid = followed(solver_bodies[ids.x], solver_bodies[ids.y], solver_contacts[c].rub_mass.w, is_b);
     vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
     twist = cross((is_b ? center_b : center_a) + slid, slide) + rub.z * normal;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {

@@ -46,6 +46,12 @@ vec3 rubOf(uint old, vec3 normal, vec3 tangent) {
     return vec3(dot(slide, tangent), dot(slide, cross(normal, tangent)), rub.z);
 }
 
+// The smaller body is pushed where it was touched, or what slides along a wide one would be turned by an arm as long as its way.
+float armsOf(uint a, uint b) {
+    bool a_is_smaller = shapes[a].inverse_inertia[2].w < shapes[b].inverse_inertia[2].w;
+    return float(a_is_smaller ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW);
+}
+
 void remember(uint p, uint slot, uint old) {
     Manifold m = manifolds[slot];
     uint a = m.pair.z, b = m.pair.w;
@@ -58,7 +64,7 @@ void remember(uint p, uint slot, uint old) {
     memory[p].ids = uvec4(a, b, min(m.info.x, MANIFOLD_POINTS), color);
     memory[p].normal = vec4(m.normal.xyz, sqrt(surface_a.x * surface_b.x));
     memory[p].tangent = vec4(tangent, max(surface_a.y, surface_b.y));
-    memory[p].rub = vec4(old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent), 0.0);
+    memory[p].rub = vec4(old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent), armsOf(a, b));
     memory[p].turn_a = turn_a;
     memory[p].turn_b = turn_b;
     memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), m.info.x == 0u ? m.normal.w : 0.0);
@@ -78,9 +84,6 @@ void main() {
     uint slot = fresh_slots[p], old = recalled[p];
     bool fresh = fresh_slots[p + 1u] != slot;
     if (fresh) remember(p, slot, old);
-    else {
-        memory[p] = old_memory[old];
-        memory[p].rub.w = 1.0;
-    }
+    else memory[p] = old_memory[old];
     touches[p] = (fresh ? manifolds[slot].info.x : old_memory[old].ids.z) != 0u ? 1u : 0u;
 }

@@ -26,17 +26,17 @@ struct Buffers {
         : states(bufferOf(statesOf(bodies))), shapes(bufferOf(shapesOf(bodies))),
           solver_bodies(blankBuffer<gpu::SolverBody>(bodies.size())), spins(blankBuffer<gpu::vec4>(bodies.size())),
           none(bufferOf(std::vector<uint32_t>(bodies.size() + 1))), contacts(blankBuffer<gpu::SolverContact>(1)),
-          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))) {
+          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(bodies.size())) {
         counts[COUNT_BODIES] = static_cast<uint32_t>(bodies.size());
     }
     Counts counts;
-    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps;
+    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares;
 };
 
-void begin(Buffers& b) {
+void begin(Buffers& b, const gpu::vec4& falling) {
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("begin_step"), b.counts[COUNT_BODIES], engine::NoPush{},
-                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins});
+        commands.dispatch(kernel("begin_step"), b.counts[COUNT_BODIES], falling,
+                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.shares});
     });
 }
 
@@ -48,10 +48,10 @@ void substep(Buffers& b, const gpu::SolverPush& push) {
     });
 }
 
-void end(Buffers& b) {
+void end(Buffers& b, const gpu::vec4& falling) {
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("end_step"), b.counts[COUNT_BODIES], engine::NoPush{},
-                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.steps});
+        commands.dispatch(kernel("end_step"), b.counts[COUNT_BODIES], falling,
+                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.steps, b.shares});
     });
 }
 
@@ -68,12 +68,12 @@ Moved moveOnDevice(const std::vector<RigidBody>& bodies, const Course& run) {
     push.gravity = wordsOf(run.gravity, run.step / run.substeps);
     b.counts[STATUS_FAILED] = run.failed;
     for (uint32_t step = 0; step < run.steps; ++step) {
-        begin(b);
+        begin(b, wordsOf(run.gravity, run.step));
         for (uint32_t k = 0; k < run.substeps; ++k) {
             if (k == run.substeps / 2 && !run.kick.isZero()) kick(b, run.kick);
             substep(b, push);
         }
-        end(b);
+        end(b, wordsOf(run.gravity, run.step));
     }
     return {valuesOf<gpu::BodyState>(b.states, bodies.size()), *b.steps.mappedAs<uint32_t>()};
 }
@@ -122,7 +122,7 @@ TEST(SmallFreeMotion, BeginsWithTheInertiaThatABodyHasInTheWorld) {
     for (uint32_t k = 0; k < 65; ++k)
         bodies.push_back(randomBody(chance, k % 8 != 0));
     Buffers b(bodies);
-    begin(b);
+    begin(b, {});
     for (uint32_t k = 0; k < 65; ++k) {
         const gpu::SolverBody s = b.solver_bodies.mappedAs<gpu::SolverBody>()[k];
         Matrix inertia;
@@ -261,10 +261,10 @@ TEST(SmallFreeMotion, LeavesWhatIsNotSolvedWhereItIs) {
     Buffers b(bodies);
     gpu::SolverPush push{};
     push.gravity = wordsOf(Vector(0, -9.81, 0), 1.0 / 240);
-    begin(b);
+    begin(b, {});
     b.solver_bodies.mappedAs<gpu::SolverBody>()[0] = {{}, {}, {}, {}, {0, 0, 0, 1}};
     substep(b, push);
-    end(b);
+    end(b, {});
     const auto states = valuesOf<gpu::BodyState>(b.states, 2);
     EXPECT_EQ(wordsIn(states[0]), wordsIn(bodies[0].state));
     EXPECT_NE(placeOf(states[1]), bodies[1].place());

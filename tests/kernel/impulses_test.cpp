@@ -41,19 +41,20 @@ struct Push {
     }
 };
 
-// On body B; on A it is the opposite at the same point, wherever B has moved to. What a point was hit with counts no more, and
+// On body B; on A it is the opposite at the same point, wherever the two have moved to. What a point was hit with counts no more, and
 // friction no more where any point was hit.
 Push pushOf(const gpu::SolverContact& c, bool on_b, const Vector& moved) {
     Push push;
-    const Vector from_a = on_b ? Vector::Zero() : moved;
+    const bool follows = c.rub_mass.w == static_cast<float>(on_b ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW);
+    const Vector grown = follows ? Vector(on_b ? -moved : moved) : Vector::Zero();
     const double sign = on_b ? 1 : -1;
     const Vector normal = xyz(c.normal), tangent = xyz(c.tangent);
     for (uint32_t k = 0; k < c.ids.z; ++k)
         if (c.points[k].pulse.w == 0)
-            push.add(sign * double{c.points[k].pulse.x} * normal, from_a + xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
+            push.add(sign * double{c.points[k].pulse.x} * normal, grown + xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
     if (isBlow(c)) return push;
     push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)),
-             from_a + xyz(on_b ? c.center_b : c.center_a));
+             grown + xyz(on_b ? c.center_b : c.center_a));
     push.twist += sign * double{c.rub.z} * normal;
     return push;
 }
@@ -64,8 +65,7 @@ struct Heap {
     std::vector<gpu::SolverContact> contacts;
     Push pushOn(uint32_t entry) const {
         const gpu::SolverContact& c = contacts[entry / 2];
-        return pushOf(c, entry % 2 == 1,
-                      bodies[c.ids.y].moves() ? Vector(moved[c.ids.y] - moved[c.ids.x]) : Vector(Vector::Zero()));
+        return pushOf(c, entry % 2 == 1, moved[c.ids.y] - moved[c.ids.x]);
     }
     std::vector<uint32_t> start = {0}, adjacency; // as order_adjacency makes them
 };
@@ -80,6 +80,9 @@ Heap pressedHeap(uint32_t body_count, uint32_t contact_count, uint32_t seed) {
     for (uint32_t c = 0; c < contact_count; ++c) {
         const uint32_t a = chance.below(body_count);
         heap.contacts.push_back(randomContact(chance, a, (a + 1 + chance.below(5)) % body_count));
+        gpu::SolverContact& contact = heap.contacts.back();
+        const bool both_move = heap.bodies[contact.ids.x].moves() && heap.bodies[contact.ids.y].moves();
+        contact.rub_mass.w = !both_move ? ARMS_STAY : chance.oneIn(2) ? ARMS_OF_A_FOLLOW : ARMS_OF_B_FOLLOW;
         if (c % 5 == 0) noteBlow(heap.contacts.back(), chance.below(heap.contacts.back().ids.z));
     }
     for (uint32_t b = 0; b < body_count; ++b) {
@@ -132,31 +135,34 @@ TEST(SmallPushBodies, GiveThemGravityAndTheImpulsesOfTheirContactsOnceMore) {
     }
 }
 
-// What one body gets the other one loses, about the origin, wherever the two have moved to.
+// What one body gets the other one loses, about the origin, wherever the two have moved to and whosever arms follow.
 TEST(SmallPushBodies, KeepTheMomentumOfAllBodiesThatMove) {
-    Heap heap = pressedHeap(2, 0, 1);
-    Chance chance(2);
-    heap.bodies[0] = randomBody(chance, true);
-    heap.bodies[1] = randomBody(chance, true);
-    heap.moved = {chance.inBox(0.1), chance.inBox(0.1)};
-    heap.contacts = {randomContact(chance, 0, 1)};
-    const Vector way = heap.bodies[1].place() - heap.bodies[0].place();
-    for (gpu::SolverPoint& point : heap.contacts[0].points)
-        point.arm_a = wordsOf(way + xyz(point.arm_b));
-    heap.contacts[0].center_a = wordsOf(way + xyz(heap.contacts[0].center_b));
-    heap.adjacency = {0, 1};
-    heap.start = {0, 1, 2};
-    const std::vector<gpu::SolverBody> pushed = pushedOnDevice(heap, {0, 0, 0});
-    Vector momentum = Vector::Zero(), angular = Vector::Zero();
-    for (uint32_t b = 0; b < 2; ++b) {
-        const RigidBody& body = heap.bodies[b];
-        const Vector gained = (xyz(pushed[b].velocity) - xyz(body.state.velocity)) / double{body.state.offset.w};
-        momentum += gained;
-        angular += (body.place() + heap.moved[b]).cross(gained);
-        angular += body.inverseInertia().inverse() * (xyz(pushed[b].spin) - xyz(body.state.spin));
+    for (const int arms : {ARMS_OF_A_FOLLOW, ARMS_OF_B_FOLLOW}) {
+        Heap heap = pressedHeap(2, 0, 1);
+        Chance chance(2);
+        heap.bodies[0] = randomBody(chance, true);
+        heap.bodies[1] = randomBody(chance, true);
+        heap.moved = {chance.inBox(0.1), chance.inBox(0.1)};
+        heap.contacts = {randomContact(chance, 0, 1)};
+        heap.contacts[0].rub_mass.w = static_cast<float>(arms);
+        const Vector way = heap.bodies[1].place() - heap.bodies[0].place();
+        for (gpu::SolverPoint& point : heap.contacts[0].points)
+            point.arm_a = wordsOf(way + xyz(point.arm_b));
+        heap.contacts[0].center_a = wordsOf(way + xyz(heap.contacts[0].center_b));
+        heap.adjacency = {0, 1};
+        heap.start = {0, 1, 2};
+        const std::vector<gpu::SolverBody> pushed = pushedOnDevice(heap, {0, 0, 0});
+        Vector momentum = Vector::Zero(), angular = Vector::Zero();
+        for (uint32_t b = 0; b < 2; ++b) {
+            const RigidBody& body = heap.bodies[b];
+            const Vector gained = (xyz(pushed[b].velocity) - xyz(body.state.velocity)) / double{body.state.offset.w};
+            momentum += gained;
+            angular += (body.place() + heap.moved[b]).cross(gained);
+            angular += body.inverseInertia().inverse() * (xyz(pushed[b].spin) - xyz(body.state.spin));
+        }
+        EXPECT_LE(momentum.norm(), 1e-4);
+        EXPECT_LE(angular.norm(), 1e-4);
     }
-    EXPECT_LE(momentum.norm(), 1e-4);
-    EXPECT_LE(angular.norm(), 1e-4);
 }
 
 TEST(SmallPushBodies, LeaveThemAloneIfTheStepFailed) {

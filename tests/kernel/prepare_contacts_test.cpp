@@ -41,13 +41,17 @@ gpu::ContactMemory randomContact(Chance& chance, const std::vector<RigidBody>& b
     memory.ids = {a, b, points, 0};
     memory.normal = wordsOf(normal, 0.5);
     memory.tangent = wordsOf((u + chance.between(-1, 1) * v).normalized(), 0.3);
-    memory.rub = wordsOf(chance.inBox(2), 0);
+    memory.rub = wordsOf(chance.inBox(2), chance.oneIn(2) ? ARMS_OF_A_FOLLOW : ARMS_OF_B_FOLLOW);
+    // Found when the bodies stood a little otherwise.
+    const Quaternion turn_a = turnOf(bodies[a].state.turn), turn_b = turnOf(bodies[b].state.turn);
+    const Vector way_then = bodies[b].place() - bodies[a].place() + chance.inBox(0.05);
+    memory.turn_a = wordsOf(turnBy(0.02, chance.direction()) * turn_a);
+    memory.place = wordsOf(turnOf(memory.turn_a).inverse() * way_then);
     for (uint32_t k = 0; k < points; ++k) {
         const Vector spread =
             chance.between(-0.4, 0.4) * u + chance.between(-0.4, 0.4) * v + chance.between(-0.01, 0.01) * normal;
-        memory.arm_a[k] = wordsOf(center_a + spread);
+        memory.arm_a[k] = wordsOf(center_a + spread, normal.dot(way_then + center_b - center_a));
         memory.arm_b[k] = wordsOf(center_b + spread);
-        const Quaternion turn_a = turnOf(bodies[a].state.turn), turn_b = turnOf(bodies[b].state.turn);
         memory.anchor_a[k] = wordsOf(turn_a.inverse() * (center_a + spread + chance.inBox(0.01)), chance.between(0, 3));
         memory.anchor_b[k] = wordsOf(turn_b.inverse() * (center_b + spread + chance.inBox(0.01)));
     }
@@ -109,21 +113,21 @@ struct Expected {
             sum += xyz(arms[k]) / points();
         return sum;
     }
-    // B's arm, from A: they part as the bodies slide, but impulses are to meet both at one point.
-    Vector reachOf(const Vector& arm_a) const {
-        if (!a.moves() || !b.moves()) return arm_a;
-        return arm_a + b.place() - a.place() + meanArm(memory.arm_b) - meanArm(memory.arm_a);
-    }
+    // Arms part as the bodies slide, but impulses are to meet both at one point: one body's arms follow the other's.
+    Vector parted() const { return b.place() - a.place() + meanArm(memory.arm_b) - meanArm(memory.arm_a); }
+    bool follows(float arms) const { return a.moves() && b.moves() && memory.rub.w == arms; }
+    Vector reachOfA(const Vector& arm) const { return follows(ARMS_OF_A_FOLLOW) ? Vector(arm + parted()) : arm; }
+    Vector reachOfB(const Vector& arm) const { return follows(ARMS_OF_B_FOLLOW) ? Vector(arm - parted()) : arm; }
     // Speeds along the normal of all points: rows of the motion.
     Eigen::MatrixXd pressing() const {
         Eigen::MatrixXd rows(points(), 12);
         for (uint32_t k = 0; k < points(); ++k)
-            rows.row(k) = speedAlong(normal, reachOf(xyz(memory.arm_a[k])), xyz(memory.arm_b[k]));
+            rows.row(k) = speedAlong(normal, reachOfA(xyz(memory.arm_a[k])), reachOfB(xyz(memory.arm_b[k])));
         return rows;
     }
     Eigen::MatrixXd rubbing() const {
-        const Vector tangent = xyz(memory.tangent), center_b = meanArm(memory.arm_b);
-        const Vector center_a = reachOf(meanArm(memory.arm_a));
+        const Vector tangent = xyz(memory.tangent), center_b = reachOfB(meanArm(memory.arm_b));
+        const Vector center_a = reachOfA(meanArm(memory.arm_a));
         Eigen::MatrixXd rows(2, 12);
         rows.row(0) = speedAlong(tangent, center_a, center_b);
         rows.row(1) = speedAlong(normal.cross(tangent), center_a, center_b);
@@ -209,7 +213,7 @@ TEST(SmallPrepareContacts, StandWhereTheirColorHasAPlaceForThem) {
             EXPECT_EQ(got.normal.w, 0.5f);
             EXPECT_EQ(got.tangent.w, 0.3f);
             EXPECT_EQ(xyz(got.rub), xyz(wanted.memory.rub));
-            EXPECT_EQ(got.rub_mass.w, wanted.a.moves() && wanted.b.moves() ? 0 : 1);
+            EXPECT_EQ(got.rub_mass.w, wanted.a.moves() && wanted.b.moves() ? wanted.memory.rub.w : ARMS_STAY);
         });
     }
 }
@@ -222,9 +226,10 @@ TEST(SmallPrepareContacts, KnowHowFarPointsAreApartAndHowFastTheyMeet) {
             const Eigen::VectorXd speeds = wanted.pressing() * wanted.motion();
             for (uint32_t k = 0; k < wanted.points(); ++k) {
                 EXPECT_NEAR(got.points[k].arm_a.w, wanted.separation(k), 1e-5);
-                const Vector reach = wanted.reachOf(xyz(wanted.memory.arm_a[k]));
-                EXPECT_LE((xyz(got.points[k].arm_a) - reach).norm(), 1e-6 * (1 + reach.norm()));
-                EXPECT_EQ(xyz(got.points[k].arm_b), xyz(wanted.memory.arm_b[k]));
+                const Vector reach_a = wanted.reachOfA(xyz(wanted.memory.arm_a[k]));
+                const Vector reach_b = wanted.reachOfB(xyz(wanted.memory.arm_b[k]));
+                EXPECT_LE((xyz(got.points[k].arm_a) - reach_a).norm(), 1e-6 * (1 + reach_a.norm()));
+                EXPECT_LE((xyz(got.points[k].arm_b) - reach_b).norm(), 1e-6 * (1 + reach_b.norm()));
                 EXPECT_EQ(got.points[k].pulse.x, wanted.memory.anchor_a[k].w);
                 EXPECT_EQ(got.points[k].pulse.y, 0);
                 EXPECT_EQ(got.points[k].pulse.w, 0);
@@ -255,6 +260,7 @@ TEST(SmallPrepareContacts, OfABodyThatFallsCountTheWayThatIsLeft) {
     scene.memory[0].normal = {0, 1, 0, 0};
     scene.memory[0].tangent = {1, 0, 0, 0};
     scene.memory[0].anchor_b[0] = scene.memory[0].arm_b[0] = {0, -0.5f, 0, 0};
+    scene.memory[0].arm_a[0].w = -0.5f; // where both stood at one place
     scene.pair_of = scene.slots = {0};
     const double now = 3 + 0.5 * kSubstep * 9.81;
     const gpu::SolverPoint point = preparedOnDevice(scene)[0].points[0];
@@ -275,8 +281,8 @@ TEST(SmallPrepareContacts, HaveTheMassThatAnImpulseMeets) {
 TEST(SmallPrepareContacts, RubAtTheMiddleOfTheirPoints) {
     forEach(randomScene(300, 14), [&](const Expected& wanted, const gpu::SolverContact& got, uint32_t) {
         const Vector center_a = wanted.meanArm(wanted.memory.arm_a), center_b = wanted.meanArm(wanted.memory.arm_b);
-        EXPECT_LE((xyz(got.center_a) - wanted.reachOf(center_a)).norm(), 1e-5);
-        EXPECT_LE((xyz(got.center_b) - center_b).norm(), 1e-6);
+        EXPECT_LE((xyz(got.center_a) - wanted.reachOfA(center_a)).norm(), 1e-5);
+        EXPECT_LE((xyz(got.center_b) - wanted.reachOfB(center_b)).norm(), 1e-5);
         double reach = 0;
         for (uint32_t k = 0; k < wanted.points(); ++k)
             reach += (xyz(wanted.memory.arm_a[k]) - center_a).norm() / wanted.points();

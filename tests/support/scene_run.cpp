@@ -1,5 +1,6 @@
 #include "tests/support/scene_run.h"
 
+#include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/engine/test_device.h"
 
@@ -148,10 +149,13 @@ std::vector<reference::SolidBox> SceneRun::sweptBoxes(double more) const {
             if (moves(body)) bounds.grow(v + scene_.step.dt * xyz(state.velocity));
         }
         reference::SolidBox box = {.body = body, .fixed = !moves(body)};
+        const bool is_plane = (contents_.pieces[p].ids.z & PIECE_PLANE) != 0; // endless, but straight up
+        const Double3 up = brittle::turnedBy(poseOf(state).turn, {0, 1, 0});
         for (size_t axis = 0; axis < 3; ++axis) {
             const double rounding = 1e-6 * std::max(std::fabs(bounds.lower[axis]), std::fabs(bounds.upper[axis]));
-            box.low[axis] = bounds.lower[axis] - margin - (more > 0 ? rounding : 0);
-            box.high[axis] = bounds.upper[axis] + margin + (more > 0 ? rounding : 0);
+            const double beyond = (is_plane && std::fabs(up[axis]) < 1 ? 2e6 : 0) + margin + (more > 0 ? rounding : 0);
+            box.low[axis] = bounds.lower[axis] - beyond;
+            box.high[axis] = bounds.upper[axis] + beyond;
         }
         boxes.push_back(box);
     }

@@ -30,8 +30,10 @@ WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
     for (const uint32_t body : order.body_at) {
         gpu::BodyShape shape = contents.shapes[body];
         const auto first = static_cast<uint32_t>(sorted.pieces.size()), index = static_cast<uint32_t>(sorted.bodies.size());
-        for (uint32_t k = 0; k < shape.pieces.y; k++)
-            sorted.pieces.push_back({{contents.pieces[shape.pieces.x + k].ids.x, index, 0, 0}});
+        for (uint32_t k = 0; k < shape.pieces.y; k++) {
+            const gpu::PieceRecord& piece = contents.pieces[shape.pieces.x + k];
+            sorted.pieces.push_back({{piece.ids.x, index, piece.ids.z, 0}});
+        }
         shape.pieces.x = first;
         sorted.shapes.push_back(shape);
         sorted.bodies.push_back(contents.bodies[body]);

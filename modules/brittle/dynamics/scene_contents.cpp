@@ -17,7 +17,7 @@ using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
 
-constexpr double kPlaneEdge = 1000, kPlaneDepth = 10;
+constexpr double kPlaneEdge = 1000, kPlaneDepth = 10; // m, of the hull that is always below what a plane is held against
 constexpr double kLeastShown = 10; // m, of a plane's edge
 
 Result<PieceShape> cellPiece(const FragmentSet& set, uint32_t k, double inflate) {
@@ -107,7 +107,9 @@ PieceShape planePiece() {
                                                         {kPlaneEdge / 2, -kPlaneDepth, -kPlaneEdge / 2},
                                                         {-kPlaneEdge / 2, -kPlaneDepth, kPlaneEdge / 2},
                                                         {kPlaneEdge / 2, -kPlaneDepth, kPlaneEdge / 2}});
-    return pieceOf(hull->hull, {0, 0, 0});
+    PieceShape piece = pieceOf(hull->hull, {0, 0, 0});
+    piece.is_plane = true;
+    return piece;
 }
 
 // Every triangle is a piece of its own, with two sides.

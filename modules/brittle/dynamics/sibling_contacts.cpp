@@ -106,6 +106,7 @@ gpu::ContactMemory memoryOf(const WorldContents& contents, const SiblingContact&
     memory.ids = {a, b, static_cast<uint32_t>(sibling.points.size()), NO_INDEX};
     memory.normal = wordsOf(sibling.normal, std::sqrt(shape_a.inverse_inertia[0].w * shape_b.inverse_inertia[0].w));
     memory.tangent = wordsOf(anyTangent(sibling.normal), std::max(shape_a.inverse_inertia[1].w, shape_b.inverse_inertia[1].w));
+    memory.rub.w = shape_a.inverse_inertia[2].w < shape_b.inverse_inertia[2].w ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW;
     memory.turn_a = contents.bodies[a].turn;
     memory.turn_b = contents.bodies[b].turn;
     memory.place = wordsOf(turnedBack(pose_a.turn, pose_b.place - pose_a.place));

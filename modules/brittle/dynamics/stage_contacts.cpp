@@ -63,8 +63,8 @@ void recordBoxes(const Step& s) {
     s.record.commands().beginLabel("boxes");
     const uint32_t sizes[] = {s.b.sizes.pieces, s.b.sizes.bodies};
     s.record.runGroups("open_step", 1, sizes, {s.record.counts(), s.record.args(), s.b.steps});
-    s.record.run("begin_step", Length::counted(COUNT_BODIES), engine::NoPush{},
-                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins});
+    s.record.run("begin_step", Length::counted(COUNT_BODIES), fallingOf(s),
+                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares});
     s.record.run(
         "bound_pieces", Length::counted(COUNT_BOXES), push,
         {s.record.counts(), s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});

@@ -1,5 +1,6 @@
 // Contacts get colors, and are solved in substeps.
 #include "modules/brittle/dynamics/step.h"
+#include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,24 @@ void recordAdjacency(const Step& s) {
                   b.contact_slots, b.adjacency});
 }
 
+// Idles where no body is fast for its size.
+void recordHolding(const Step& s) {
+    if (!s.settings.contacts) return;
+    const StepBuffers& b = s.b.step;
+    const gpu::vec4 falling = fallingOf(s);
+    const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(s.settings.margin)};
+    s.record.run("hold_back", Length::counted(COUNT_SWIFT), push,
+                 {s.record.counts(), b.contact_pairs, s.now.pairs, s.now.contacts, s.b.pieces, s.b.hull_records,
+                  s.b.hull_vertices, s.b.bodies, s.b.shapes, b.solver_bodies, b.shares});
+}
+
 } // namespace
+
+// Gravity, and how long a step takes.
+gpu::vec4 fallingOf(const Step& s) {
+    const Float3 g = toFloat(s.settings.gravity);
+    return {g[0], g[1], g[2], static_cast<float>(s.settings.dt)};
+}
 
 gpu::SolverPush solverPush(const Step& s) {
     const StepSettings& set = s.settings;
@@ -126,8 +144,9 @@ void recordSolve(const Step& s) {
 
 void recordEnd(const Step& s) {
     s.record.commands().beginLabel("end");
-    s.record.run("end_step", kBodies, engine::NoPush{},
-                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps});
+    recordHolding(s);
+    s.record.run("end_step", kBodies, fallingOf(s),
+                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps, s.b.step.shares});
     recordRest(s);
     s.record.commands().endLabel();
 }

@@ -27,5 +27,6 @@ void recordRest(const Step& step); // where bodies may sleep
 void recordEnd(const Step& step);
 
 gpu::SolverPush solverPush(const Step& step);
+gpu::vec4 fallingOf(const Step& step); // gravity; w: length of the step
 
 } // namespace brittle

@@ -68,6 +68,7 @@ StepBuffers layOutStep(engine::ScratchArena& arena, const WorldSizes& n) {
     s.narrow_arguments = take(1, kNarrowPhaseArgumentBytes);
     s.solver_bodies = take(n.bodies, sizeof(gpu::SolverBody));
     s.spins = take(n.bodies, 16);
+    s.shares = take(n.bodies, 4);
     s.solver_contacts = take(n.contacts, sizeof(gpu::SolverContact));
     for (BufferView* view : {&s.parents, &s.islands, &s.rests})
         *view = take(n.sleeping ? n.bodies : 0, 4);

@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 namespace brittle {
 namespace {
@@ -139,9 +141,24 @@ double reachOf(const BodyDefinition& body) {
     return reach;
 }
 
-gpu::BodyShape shapeOf(const BodyDefinition& body, const Principal& principal, uint32_t first_piece) {
+// Of the thinnest piece, from its center to the nearest face.
+float halfThickness(const WorldContents& contents, uint32_t first_piece) {
+    float half = std::numeric_limits<float>::max();
+    for (size_t p = first_piece; p < contents.pieces.size(); p++) {
+        const gpu::HullRecord& hull = contents.hulls.records[contents.pieces[p].ids.x];
+        for (uint32_t f = 0; f < hull.count.y; f++) {
+            const gpu::vec4& plane = contents.hulls.faces[hull.first.y + f].plane;
+            half = std::min(half, plane.w - plane.x * hull.center.x - plane.y * hull.center.y - plane.z * hull.center.z);
+        }
+    }
+    return std::max(half, 0.0f);
+}
+
+gpu::BodyShape shapeOf(const WorldContents& contents, const BodyDefinition& body, const Principal& principal,
+                       uint32_t first_piece) {
     gpu::BodyShape shape{};
-    shape.pieces = {first_piece, static_cast<uint32_t>(body.pieces.size()), 0, 0};
+    shape.pieces = {first_piece, static_cast<uint32_t>(body.pieces.size()),
+                    std::bit_cast<uint32_t>(halfThickness(contents, first_piece)), 0};
     const double reach = reachOf(body);
     const double last[3] = {body.friction, body.restitution, reach};
     for (size_t row = 0; row < 3; row++) {
@@ -173,10 +190,10 @@ Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body) {
             contents.pieces.resize(first);
             return Error{hull.error().code, "body \"" + body.name + "\": " + hull.error().message};
         }
-        contents.pieces.push_back({{*hull, index, 0, 0}});
+        contents.pieces.push_back({{*hull, index, piece.is_plane ? uint32_t{PIECE_PLANE} : 0, 0}});
     }
     contents.bodies.push_back(stateOf(body, principal));
-    contents.shapes.push_back(shapeOf(body, principal, first));
+    contents.shapes.push_back(shapeOf(contents, body, principal, first));
     contents.ids.push_back(body.id);
     return index;
 }

@@ -18,6 +18,7 @@ struct PieceShape {
     std::vector<Float3> vertices;
     std::vector<std::vector<uint32_t>> loops;
     std::vector<Float3> normals; // of the faces, outward, unit, where they are known; else they follow from the loops
+    bool is_plane = false;       // a box whose top goes on for ever, at y = 0 of a body that does not move
 };
 
 using Turn = std::array<double, 4>; // a quaternion x, y, z, w of any length but 0: own frame to world

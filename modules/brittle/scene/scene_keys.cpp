@@ -173,8 +173,8 @@ constexpr auto kBodyKeys = joined(
 constexpr auto kColliderKeys = joined(std::to_array<SceneKey>({
                                           {"name", at<&ColliderDescription::name>, kAnything, "", "for messages"},
                                           {"shape", kInShape<ColliderDescription, &ShapeDescription::kind>, oneOf(kShapes), "",
-                                           "a plane bounds what is up to 10 m below it and 500 m from the middle of the "
-                                           "bodies, where its frame's y axis is up; a mesh is taken as the triangles it is"},
+                                           "a plane is endless and bounds what is up to 10 m below it, where its frame's y axis "
+                                           "is up; a mesh is taken as the triangles it is"},
                                       }),
                                       kPlacedKeys<ColliderDescription>);
 

@@ -1,0 +1,113 @@
+// Bodies that are fast for their size go no deeper into what they touch than a share of their thickness, however a blow has
+// turned them: of a contact's normal nothing is asked but that it separates, so all corners of both hulls count, not only the
+// points that were found before the blow. The least of all contacts is what a body may go of its way (end_step).
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "shared/body.h"
+#include "shared/hull.h"
+#include "lib/held_way.glsl"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uint, contact_pairs);
+READS(2, uvec2, pairs);
+READS(3, ContactMemory, memory);
+READS(4, PieceRecord, pieces);
+READS(5, HullRecord, hulls);
+READS(6, vec4, hull_vertices);
+READS(7, BodyState, bodies);
+READS(8, BodyShape, shapes);
+READS(9, SolverBody, solver_bodies);
+UPDATES(10, uint, shares); // of each body, as bits: of floats that are not negative the order is the same
+layout(push_constant) uniform Push {
+    vec4 gravity; // w: length of the step
+    float margin;
+};
+#include "lib/body_way.glsl"
+
+const uint kHalvings = 12u;
+const float kDepthShare = 0.25; // of the thinner hull along the normal
+const float kMarginShare = 0.1; // of the smaller hull
+const float kRoom = 0.1;        // of what is allowed, for bodies that begin deeper
+
+struct Side {
+    uint body;
+    HullRecord hull;
+    vec4 from, turned_; // at the beginning of the step, and since
+    vec3 moved;
+    float share;        // that its own way allows
+};
+
+Side sideOf(uint body, uint piece) {
+    SolverBody s = solver_bodies[body];
+    bool moves = s.velocity.w != 0.0;
+    float share = moves ? shareOfWay(s.moved.xyz, bodies[body].velocity.xyz, gravity, thicknessOf(shapes[body])) : 1.0;
+    return Side(body, hulls[pieces[piece].ids.x], bodies[body].turn, s.turned, s.moved.xyz, share);
+}
+
+vec4 turnAt(Side side, float share) { return turnAfter(shareOfTurn(side.turned_, min(share, side.share)), side.from); }
+
+// The lowest and the highest corner along a direction, above the body's center of mass.
+vec2 heightsOf(Side side, vec4 turn, vec3 n) {
+    vec3 own = turned(turnBack(turn), n);
+    vec2 heights = vec2(3e38, -3e38);
+    for (uint v = 0u; v < HULL_VERTICES && v < side.hull.count.x; v++) {
+        float height = dot(own, hull_vertices[side.hull.first.x + v].xyz);
+        heights = vec2(min(heights.x, height), max(heights.y, height));
+    }
+    return heights;
+}
+
+// How deep the hulls lie in each other along the normal; yz: how thick they are. The normal turns with the larger one: the corners
+// of the other tell how far it has got, while a wide floor has its own far below a normal that tips over.
+vec3 depthAt(uint pair, Side a, Side b, vec3 way, float share) {
+    bool with_a = a.hull.center.w > b.hull.center.w;
+    vec4 turn_a = turnAt(a, share), turn_b = turnAt(b, share);
+    vec4 since = with_a ? turnAfter(turn_a, turnBack(memory[pair].turn_a)) : turnAfter(turn_b, turnBack(memory[pair].turn_b));
+    vec3 n = turned(since, memory[pair].normal.xyz);
+    vec2 of_a = heightsOf(a, turn_a, n), from_b = heightsOf(b, turn_b, n);
+    vec3 apart = way + min(share, b.share) * b.moved - min(share, a.share) * a.moved;
+    return vec3(of_a.y - from_b.x - dot(n, apart), of_a.y - of_a.x, from_b.y - from_b.x);
+}
+
+float allowedDepth(vec3 first, Side a, Side b) {
+    float slight = min(margin, kMarginShare * min(a.hull.center.w, b.hull.center.w));
+    float allowed = max(kDepthShare * min(first.y, first.z), slight);
+    return max(allowed, first.x + kRoom * allowed);
+}
+
+bool wantsALook(Side a, Side b) {
+    float way = length(min(1.0, b.share) * b.moved - a.share * a.moved);
+    float turn_a = 2.0 * length(a.turned_.xyz), turn_b = 2.0 * length(b.turned_.xyz);
+    bool moves_a = solver_bodies[a.body].velocity.w != 0.0, moves_b = solver_bodies[b.body].velocity.w != 0.0;
+    return (moves_a && isSwift(way, turn_a, shapes[a.body])) || (moves_b && isSwift(way, turn_b, shapes[b.body]));
+}
+
+// First as it began, then the whole step, then halves.
+float shareWithin(uint pair, Side a, Side b, vec3 way) {
+    float low = 0.0, high = 1.0, allowed = 0.0;
+    bool open = wantsALook(a, b), held = false;
+    for (uint k = 0u; k < ROLLED(kHalvings + 2u) && open; k++) {
+        float share = k == 0u ? 0.0 : (k == 1u ? 1.0 : 0.5 * (low + high));
+        vec3 depth = depthAt(pair, a, b, way, share);
+        if (k == 0u) allowed = allowedDepth(depth, a, b);
+        bool fits = depth.x <= allowed;
+        low = fits ? share : low;
+        high = fits ? high : share;
+        held = held || !fits;
+        open = k == 0u || held;
+    }
+    return held ? low : 1.0;
+}
+
+void main() {
+    uint at = flatIndex();
+    if (at >= counts[COUNT_SWIFT]) return;
+    uint pair = contact_pairs[at];
+    uvec2 ids = memory[pair].ids.xy, of = pairs[pair];
+    Side a = sideOf(ids.x, of.x), b = sideOf(ids.y, of.y);
+    float share = shareWithin(pair, a, b, wayBetween(ids.x, ids.y));
+    atomicMin(shares[ids.x], floatBitsToUint(share));
+    atomicMin(shares[ids.y], floatBitsToUint(share));
+}

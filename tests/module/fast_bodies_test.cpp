@@ -1,0 +1,158 @@
+// Bodies that are fast for their size, however they come in: turned, spinning, off the middle of what they hit. What they hit is
+// thinner than what they go in a step.
+#include "modules/brittle/dynamics/pose.h"
+#include "modules/brittle/mesh/vector_math.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using brittle::BodyDescription, brittle::Double3, brittle::SceneDescription, brittle::ShapeDescription, brittle::ShapeKind;
+using brittle::operator-, brittle::operator*;
+using support::SceneRun;
+
+constexpr double kThickness = 0.05; // of walls
+
+struct Shot {
+    const char* name;
+    ShapeDescription shape;
+};
+
+const Shot kShots[] = {
+    {"cube", {.kind = ShapeKind::Box, .size = {0.1, 0.1, 0.1}}},
+    {"ball", {.kind = ShapeKind::Ball, .radius = 0.05, .corners = 24}},
+    {"plate", {.kind = ShapeKind::Box, .size = {0.02, 0.5, 0.5}}},
+    {"rod", {.kind = ShapeKind::Box, .size = {0.6, 0.05, 0.05}}},
+    {"splinter", {.kind = ShapeKind::Hull, .points = {{0, 0, 0}, {0.3, 0, 0}, {0, 0.02, 0}, {0.05, 0.01, 0.03}}}},
+};
+
+class Draw {
+public:
+    explicit Draw(uint32_t seed) : random_(seed) {}
+    double upTo(double end) { return end * static_cast<double>(random_()) / 4294967296.0; }
+    bool oneIn(uint32_t n) { return random_() % n == 0; }
+    brittle::Turn turn() { return {upTo(2) - 1, upTo(2) - 1, upTo(2) - 1, upTo(2) - 1}; }
+
+private:
+    std::mt19937 random_;
+};
+
+SceneDescription emptyScene() {
+    SceneDescription scene;
+    scene.gravity = {0, 0, 0};
+    scene.effects = {"contacts", "friction", "restitution"};
+    return scene;
+}
+
+// From some steps away on its way along x, turned and at times spinning.
+BodyDescription& addShot(SceneDescription& scene, const Shot& shot, double speed, Draw& draw) {
+    BodyDescription& body = scene.bodies.emplace_back();
+    body.name = shot.name;
+    body.shape = shot.shape;
+    body.place = {-2 - draw.upTo(1), 0.01, 0.02};
+    body.turn = draw.turn();
+    body.velocity = {speed, draw.oneIn(3) ? 0.5 * speed : 0, 0};
+    if (draw.oneIn(3)) body.spin = {50, 0, 50};
+    body.surface = {.friction = draw.oneIn(2) ? 0.6 : 0, .restitution = draw.oneIn(3) ? 0.5 : 0};
+    return body;
+}
+
+class FastBodies : public testing::TestWithParam<Shot> {};
+
+TEST_P(FastBodies, NeverPassAWallAndGainNothing) {
+    for (const double speed : {30., 100., 300., 1000.})
+        for (uint32_t seed = 0; seed < 4; ++seed) {
+            SceneDescription scene = emptyScene();
+            Draw draw(seed);
+            addShot(scene, GetParam(), speed, draw);
+            brittle::ColliderDescription& wall = scene.colliders.emplace_back();
+            wall.shape = {.kind = ShapeKind::Box, .size = {kThickness, 900, 900}};
+            SceneRun run(scene);
+            run.step(1);
+            const double energy = run.kineticEnergy();
+            for (uint32_t step = 0; step < 15; ++step) {
+                run.step(1);
+                ASSERT_TRUE(run.isFinite());
+                ASSERT_LT(run.place(0)[0], kThickness / 2) << speed << " m/s, seed " << seed << ", step " << step;
+                ASSERT_LE(run.kineticEnergy(), 1.001 * energy) << speed << " m/s, seed " << seed << ", step " << step;
+            }
+        }
+}
+
+TEST_P(FastBodies, NeverPassAPlateThatIsFreeOrComesAtThem) {
+    for (const double speed : {30., 100., 300.})
+        for (uint32_t seed = 0; seed < 4; ++seed) {
+            SceneDescription scene = emptyScene();
+            Draw draw(10 + seed);
+            addShot(scene, GetParam(), speed, draw);
+            BodyDescription& plate = scene.bodies.emplace_back();
+            plate.shape = {.kind = ShapeKind::Box, .size = {kThickness, 2, 2}};
+            if (seed % 2 == 1) plate.velocity = {-speed, 0, 0};
+            SceneRun run(scene);
+            const Double3 momentum = [&] { return run.step(1), run.momentum(); }();
+            const double energy = run.kineticEnergy(), momentum_in_all = run.momentumInAll();
+            for (uint32_t step = 0; step < 15; ++step) {
+                run.step(1);
+                ASSERT_TRUE(run.isFinite());
+                const brittle::Pose plate_now = brittle::poseOf(run.state(1));
+                const Double3 ahead = brittle::turnedBack(plate_now.turn, run.place(0) - plate_now.place), gained = run.momentum() - momentum;
+                ASSERT_LT(ahead[0], kThickness / 2) << speed << " m/s, seed " << seed << ", step " << step;
+                ASSERT_LE(brittle::length(gained), 1e-6 * momentum_in_all) << speed << " m/s, seed " << seed;
+                ASSERT_LE(run.kineticEnergy(), 1.001 * energy) << speed << " m/s, seed " << seed << ", step " << step;
+            }
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(, FastBodies, testing::ValuesIn(kShots), [](const auto& test) { return std::string(test.param.name); });
+
+// Their way leads along the wall after the blow, through another one that nothing had led to before.
+TEST(FastBodiesInACorner, StayInIt) {
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+        SceneDescription scene = emptyScene();
+        Draw draw(20 + seed);
+        BodyDescription& shot = addShot(scene, kShots[0], 300, draw);
+        shot.velocity = {300, 0, 0};
+        shot.surface = {.friction = 0, .restitution = 0};
+        brittle::ColliderDescription& slope = scene.colliders.emplace_back();
+        slope.shape = {.kind = ShapeKind::Box, .size = {kThickness, 90, 90}};
+        slope.turn = {0, 0, std::sin(-0.3), std::cos(0.3)};
+        slope.surface = shot.surface;
+        brittle::ColliderDescription& roof = scene.colliders.emplace_back();
+        roof.shape = {.kind = ShapeKind::Box, .size = {90, kThickness, 90}};
+        roof.place = {0, 1.5, 0};
+        SceneRun run(scene);
+        for (uint32_t step = 0; step < 20; ++step) {
+            run.step(1);
+            ASSERT_LT(run.place(0)[1], 1.5) << "seed " << seed << ", step " << step;
+        }
+    }
+}
+
+// A plane is endless: bodies stand on it, and slide along it, wherever they are.
+TEST(Planes, BearBodiesAnywhere) {
+    SceneDescription scene = emptyScene();
+    scene.gravity = {0, -10, 0};
+    scene.effects.push_back("gravity");
+    const Double3 places[] = {{0, 0.6, 0}, {9e4, 0.6, 3}, {-7e5, 0.6, -4e5}};
+    for (const Double3& place : places) {
+        BodyDescription& cube = scene.bodies.emplace_back();
+        cube.shape = {.kind = ShapeKind::Box, .size = {1, 1, 1}};
+        cube.place = place;
+    }
+    BodyDescription& sliding = scene.bodies.emplace_back(scene.bodies[0]);
+    sliding.place = {0, 0.5, 50};
+    sliding.velocity = {300, 0, 0};
+    sliding.surface.friction = 0;
+    scene.colliders.emplace_back();
+    SceneRun run(scene);
+    run.step(120);
+    for (size_t body = 0; body < 4; ++body)
+        EXPECT_NEAR(run.place(body)[1], 0.5, 2e-3) << body;
+    EXPECT_NEAR(run.way(3)[0], 600, 1);
+}
+
+} // namespace
