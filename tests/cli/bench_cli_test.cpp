@@ -75,6 +75,7 @@ TEST(BenchCli, RefusesSizesThatAreNone) {
                                                                                        {"--pile-steps", "0"},
                                                                                        {"--box-counts", "300000"},
                                                                                        {"--pair-counts", "many"},
+                                                                                       {"-o", "/no/such/folder/a.json"},
                                                                                        {"--cells"}}) {
         std::vector<std::string> arguments = {"bench", "--dynamics"};
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());

@@ -134,6 +134,9 @@ TEST_F(Cli, BadUsageIsRefused) {
     EXPECT_EQ(runProgram("brittle", {}).exit_code, 2);
     EXPECT_EQ(runProgram("brittle", {"break"}).exit_code, 2);
     EXPECT_EQ(runProgram("brittle", {"shatter", "builtin:cube"}).exit_code, 2) << "no output named";
+    const Outcome drawn = runProgram("brittle", {"shatter", "builtin:cube", "-o", path("cube.png")});
+    EXPECT_EQ(drawn.exit_code, 2);
+    EXPECT_NE(drawn.err.find("--picture draws them"), std::string::npos) << drawn.err;
     expectRefused({"shatter", "builtin:cube", "--sites", "0"}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites", "many"}, 2);
     for (const char* seed : {"-1", "99999999999999999999", "one"})

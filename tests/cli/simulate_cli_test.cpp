@@ -88,7 +88,8 @@ TEST_F(SimulateCli, ReportsWhatItDid) {
     expected.step(report["steps"].get<uint32_t>());
     EXPECT_EQ(report["scene"], "card_house");
     EXPECT_EQ(report["steps"], std::lround(0.2 / expected.scene().step.dt));
-    EXPECT_EQ(report["bodies"], expected.bodyCount());
+    EXPECT_EQ(report["bodies"], expected.bodyCount() - 1);
+    EXPECT_EQ(report["colliders"], 1);
     EXPECT_EQ(report["frames"], 0);
     EXPECT_NEAR(report["kinetic_energy"].get<double>(), expected.kineticEnergy(), 1e-9 + 1e-6 * expected.kineticEnergy());
     EXPECT_GT(report["pairs"].get<int>(), 15);
@@ -208,6 +209,8 @@ TEST_F(SimulateCli, RefusesWhatIsWrongInOneLine) {
     expectRefused(simulate({"stack_10", "-o", path("a.glb"), "--fps", "0"}), 2, "--fps");
     expectRefused(simulate({"stack_10", "-o", path("a.glb"), "--seconds", "1e4", "--fps", "1000"}), 2, "a million frames");
     expectRefused(simulate({"stack_10", "--json", "--seconds", "1e9"}), 2, "--seconds");
+    expectRefused(simulate({"stack_10", "--json", "--fps", "30"}), 2, "--fps");
+    expectRefused(simulate({"stack_10", "--json", "--state-hash"}), 2, "--state-hash");
     std::ofstream(path("bad.toml")) << "[[body]]\nplace = [0, nan, 0]\n";
     expectRefused(simulate({path("bad.toml"), "-o", path("a.glb")}), 2, "bad.toml:2");
     std::ofstream(path("hard.toml")) << "[step]\nsolver = \"hard\"\n[[body]]\n";
@@ -223,7 +226,7 @@ TEST_F(SimulateCli, DoesNotWriteOverWhatItReads) {
 }
 
 TEST_F(SimulateCli, TooSmallABudgetIsNamed) {
-    expectRefused(simulate({"hard_24_overflow", "-o", path("a.glb")}), 3, "`pairs` in the scene's [budgets]");
+    expectRefused(simulate({"hard_24_overflow", "-o", path("a.glb")}), 3, "see [budgets] in the scene");
     expectRefused(simulate({"hard_24_overflow", "-o", path("a_%d.png")}), 3, "pairs");
     EXPECT_TRUE(files().empty());
 }

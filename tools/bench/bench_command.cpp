@@ -1,4 +1,5 @@
 // brittle bench: its options and what it prints.
+#include "modules/brittle/export/output_file.h"
 #include "shaders-spirv/shared/fracture.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/dynamics_report.h"
@@ -7,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <optional>
 #include <thread>
 
 namespace cli {
@@ -131,13 +132,20 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     return report;
 }
 
-int write(const Json& report, const std::string& path) {
+int write(const Json& report, std::optional<brittle::OutputFile>& file) {
     const std::string text = report.dump(2) + "\n";
-    if (path.empty()) return std::fputs(text.c_str(), stdout) < 0 ? kBadInput : kOk;
-    std::ofstream file(path);
-    file << text;
-    if (!file.flush()) return fail({engine::ErrorCode::BadInput, path + ": cannot be written"});
+    if (!file) return std::fputs(text.c_str(), stdout) < 0 ? kBadInput : kOk;
+    if (auto written = file->write(text); !written) return fail(written.error());
+    if (auto committed = file->commit(); !committed) return fail(committed.error());
     return kOk;
+}
+
+// Before anything is measured, since that takes minutes.
+engine::Result<std::optional<brittle::OutputFile>> openOutput(const std::string& path) {
+    if (path.empty()) return std::optional<brittle::OutputFile>();
+    auto file = brittle::OutputFile::create(path);
+    if (!file) return file.error();
+    return std::optional<brittle::OutputFile>(std::move(*file));
 }
 
 // Leaves out what was not asked for, where some parts were.
@@ -165,10 +173,12 @@ void keepAskedFor(Options& options) {
 
 int runBench(Options options) {
     keepAskedFor(options);
+    auto file = openOutput(options.output);
+    if (!file) return fail(file.error());
     auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
     const auto report = measure(**device, options.bench);
-    return report ? write(*report, options.output) : fail(report.error());
+    return report ? write(*report, *file) : fail(report.error());
 }
 
 constexpr const char* kFooter = "Voro++, CGAL and Bullet run alternately with us, on one thread, where the build has them\n"

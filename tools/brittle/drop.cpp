@@ -17,7 +17,7 @@ using brittle::operator+, brittle::operator-, brittle::operator*; // of arrays, 
 constexpr double kCoarsest = 1.0 / 60;              // s, of a step
 constexpr double kCoarseSize = 0.5;                 // m: models that are smaller have shorter steps, by the root of their size
 constexpr double kMargin = 0.02, kMarginPart = 0.1; // m; of the size of a fragment
-constexpr double kRoom = 0.3;                       // in diagonals of the model
+constexpr double kRoom = 0.6;                       // in diagonals of the model
 constexpr engine::Vec3 kViewFrom = {0.5f, 0.42f, 1};
 
 brittle::Box boxOf(const brittle::FragmentSet& set) {

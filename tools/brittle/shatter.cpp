@@ -92,6 +92,9 @@ engine::Result<void> Run::checkPathsApart() const {
         return engine::Error{engine::ErrorCode::BadInput, path + ": " + why};
     };
     const std::string &picture = options_.picture, &of_colliders = options_.collider_picture;
+    const std::string ending = std::filesystem::path(options_.output).extension().string();
+    if (!options_.drop && (ending == ".png" || ending == ".mp4"))
+        return refused(options_.output, "fragments are written as a GLB file; --picture draws them, --drop lets them fall");
     if (sameFile(picture, options_.output) || sameFile(of_colliders, options_.output))
         return refused(options_.output, "fragments and picture need a file each");
     if (!of_colliders.empty() && options_.collider == 0)

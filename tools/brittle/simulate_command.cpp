@@ -130,14 +130,14 @@ void addSimulate(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     auto options = std::make_shared<SimulateOptions>();
     command->add_option("SCENE", options->scene, kSceneHelp)->required();
-    command->add_option("-o,--output", options->output, kMotionHelp)->check(someText);
+    auto* output = command->add_option("-o,--output", options->output, kMotionHelp)->check(someText);
     auto* seconds = command->add_option("--seconds", options->seconds,
                                         "how long, rounded up to whole steps; else as many steps as the scene says");
     inRange(seconds, 0, kMostSeconds);
     auto* fps = command->add_option("--fps", options->fps, "frames a second, of animations, numbered pictures and films");
-    inRange(fps, kLeastFps, kMostFps)->capture_default_str();
-    command->add_flag("--state-hash", options->state_hash, "print 64 bits that tell the last state of all bodies, and no more");
-    command->add_flag("--json", options->as_json, "print one JSON object, the hash in it");
+    inRange(fps, kLeastFps, kMostFps)->capture_default_str()->needs(output);
+    auto* hash = command->add_flag("--state-hash", options->state_hash, "print 64 bits that tell the last state of all bodies, and no more");
+    command->add_flag("--json", options->as_json, "print one JSON object, the hash in it")->excludes(hash);
     addDeviceOptions(*command, options->device, options->group_size, "; the motion is the same");
     command->callback([options, &exit_code] { exit_code = runSimulate(*options); });
 }

@@ -81,6 +81,8 @@ Result<SimulationReport> Simulation::report() const {
     report.dispatches = world_.dispatches();
     report.counts = {static_cast<uint32_t>(staged_.contents.bodies.size()),
                      static_cast<uint32_t>(staged_.contents.pieces.size())};
+    report.movers = static_cast<uint32_t>(
+        std::ranges::count_if(staged_.contents.bodies, [](const gpu::BodyState& body) { return body.offset.w > 0; }));
     report.left_out = brittle::effectsWithout(staged_.scene);
     if (steps_ > 0) {
         const auto counts = world_.counts();
@@ -155,7 +157,8 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"frames", r.frames},
             {"ms_per_step", {{"median", r.median_ms}, {"p99", r.p99_ms}, {"first", r.first_ms}}},
             {"dispatches_per_step", r.dispatches},
-            {"bodies", r.counts.bodies},
+            {"bodies", r.movers},
+            {"colliders", r.counts.bodies - r.movers},
             {"pieces", r.counts.pieces},
             {"pairs", r.counts.pairs},
             {"contacts", r.counts.contacts},
@@ -167,7 +170,8 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
 }
 
 void printSimulation(const SimulationReport& r, const std::string& output) {
-    std::printf("scene      %s: %u bodies of %u pieces\n", r.scene.c_str(), r.counts.bodies, r.counts.pieces);
+    std::printf("scene      %s: %u bodies and %u colliders, of %u pieces\n", r.scene.c_str(), r.movers,
+                r.counts.bodies - r.movers, r.counts.pieces);
     std::printf("steps      %u, %s s; at the last %u pairs, %u contacts, %u bodies awake, %s J of motion\n", r.steps,
                 brittle::formatNumber(r.seconds).c_str(), r.counts.pairs, r.counts.contacts, r.counts.awake,
                 brittle::formatNumber(r.kinetic_energy).c_str());

@@ -20,7 +20,7 @@ struct StagedScene {
     brittle::SceneDescription scene;
     brittle::WorldContents contents;
     brittle::WorldSurfaces surfaces;                              // only read where there is an output
-    std::string room_advice = "`pairs` in the scene's [budgets]"; // where something does not fit
+    std::string room_advice = "see [budgets] in the scene"; // where something does not fit
 };
 
 struct SimulationReport {
@@ -29,6 +29,7 @@ struct SimulationReport {
     double seconds = 0;
     size_t frames = 0; // that were written
     brittle::WorldCounts counts;
+    uint32_t movers = 0; // of the bodies; the others are colliders
     uint32_t dispatches = 0; // of a step
     // Wall clock of a step, with the wait for it. The first is apart: the driver compiles kernels in it.
     double first_ms = 0, median_ms = 0, p99_ms = 0;
