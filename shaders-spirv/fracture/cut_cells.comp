@@ -14,6 +14,7 @@ READS(1, ivec4, bin_sites); // position and id, bin by bin
 WRITES(2, uint, raw);
 WRITES(3, uvec2, cell_raw);
 WRITES(4, uint, queue); // cells that are left to the exact kernel
+UPDATES(5, uint, args);
 layout(push_constant) uniform Push {
     ivec4 bins; // w: edge of a bin
     ivec4 box_low;
@@ -23,17 +24,18 @@ layout(push_constant) uniform Push {
     // step may each take theirs at different times. Unrolled loops take none.
     uint turn_budget;
 };
+#include "lib/queue_cell.glsl"
 #include "lib/fast_cell.glsl"
 #include "lib/cell_order.glsl"
 #ifdef SEARCH_LINEAR
 #include "lib/search_linear.glsl"
 #elif defined(SEARCH_TREE)
-READS(5, uvec4, tree);
-READS(6, uint, leaf_start);
-READS(7, uint, leaf_sites);
+READS(6, uvec4, tree);
+READS(7, uint, leaf_start);
+READS(8, uint, leaf_sites);
 #include "lib/search_tree.glsl"
 #else
-READS(5, uint, bin_start);
+READS(6, uint, bin_start);
 #include "lib/search_grid.glsl"
 #endif
 

@@ -16,6 +16,7 @@ READS(3, ivec4, bin_sites); // position and id, bin by bin
 WRITES(4, uint, raw);
 WRITES(5, uvec2, cell_raw);
 WRITES(6, uint, queue); // cells that are left to the exact kernel
+UPDATES(7, uint, args);
 layout(push_constant) uniform Push {
     ivec4 bins; // w: edge of a bin
     ivec4 box_low;
@@ -29,6 +30,7 @@ uint open_total; // the same for all lanes
 #include "lib/group_search.glsl"
 #include "lib/edge_cell.glsl"
 #include "lib/edge_order.glsl"
+#include "lib/queue_cell.glsl"
 
 // What is uncertain waits, since a later cut may remove the corner in question; what then still is, is left open.
 void putOff(uint lane, vec3 e, uint id, bool waits) {
@@ -81,7 +83,7 @@ void writeCell(uint lane) {
     if (lane == 0u) {
         cell_raw[self] = uvec2(base, 0u);
         raw[base] = open != 0u ? CELL_OPEN | (open << 8) : status;
-        if (!ok || open != 0u) queue[atomicAdd(counts[COUNT_EXACT_SMALL], 1u)] = self;
+        if (!ok || open != 0u) queueCell(self);
         raw[base + 1u] = (ok && open == 0u ? bounding : planes) | (corners << 16);
     }
 }

@@ -342,6 +342,7 @@ void writeCell(uint lane, uint group) {
 void main() {
     uint lane = gl_LocalInvocationID.x, group = flatGroup();
     bool queued = cell_count == NO_INDEX;
+    if (queued && group >= counts[COUNT_EXACT_SMALL + size_class]) return; // of a grid in rows
     if (counts[STATUS_FAILED] != 0u || (!queued && group >= min(cell_count, counts[COUNT_SITES]))) return;
     self = queued ? queue[uint(box_low.w) + group] : group;
     site = sites[self].xyz;

@@ -99,6 +99,6 @@ void writeCell(uint self) {
     for (uint k = 0u; k < MOST_OPEN && k < open; k++) raw[base + RAW_OPEN + k] = uint(bin_sites[put_off[k]].w);
     cell_raw[self] = uvec2(base, 0u);
     raw[base] = open != 0u ? CELL_OPEN | (open << 8) : status;
-    if (!in_order) queue[atomicAdd(counts[COUNT_EXACT_SMALL], 1u)] = self;
+    if (!in_order) queueCell(self);
     raw[base + 1u] = (open != 0u ? plane_count : used) | ((ok ? live : 0u) << 16);
 }

@@ -30,6 +30,9 @@ GPU_NAMESPACE_BEGIN
 // A bit of STATUS_FAILED: islands could not be joined.
 #define FAILED_ISLANDS 16u
 
+// A body, counted from 1, whose motion became no number in a step since this was last looked at; else 0.
+#define STATUS_STOPPED_BODY (STATUS_NEEDED + COUNT_SWIFT)
+
 // What the world counts beyond a step.
 #define STEPS_MADE 0
 #define STEPS_ASLEEP 1 /* in a row, in which nothing was awake, up to IDLE_STEPS */

@@ -7,7 +7,7 @@
 #include "lib/held_way.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, counts);
+UPDATES(0, uint, counts);
 UPDATES(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
 READS(3, SolverBody, solver_bodies);
@@ -23,6 +23,16 @@ void moveTo(uint b, vec3 offset) {
     vec3 steps = floor(offset / edge + 0.5);
     bodies[b].sector.xyz += ivec3(steps);
     bodies[b].offset.xyz = offset - steps * edge;
+}
+
+bool isFinite(vec3 v) { return all(notEqual(floatBitsToUint(v) & uvec3(0x7f800000u), uvec3(0x7f800000u))); }
+
+// What floats cannot hold would spread to all that it touches: the body stays where it was, at rest, and the host is told.
+void stop(uint b) {
+    bodies[b].velocity.xyz = vec3(0.0);
+    bodies[b].spin.xyz = vec3(0.0);
+    bodies[b].momentum.xyz = vec3(0.0);
+    atomicMax(counts[STATUS_STOPPED_BODY], b + 1u);
 }
 
 void main() {
@@ -41,6 +51,10 @@ void main() {
         bodies[b].momentum.xyz = turned(back, momentum);
         spin = turned(back, spin);
         turn = held;
+    }
+    if (!(isFinite(s.moved.xyz) && isFinite(s.velocity.xyz) && isFinite(spin) && isFinite(bodies[b].momentum.xyz) && isFinite(turn.xyz))) {
+        stop(b);
+        return;
     }
     moveTo(b, bodies[b].offset.xyz + share * s.moved.xyz);
     bodies[b].turn = turn;

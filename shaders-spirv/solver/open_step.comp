@@ -15,7 +15,6 @@ layout(push_constant) uniform Push { uint pieces, bodies; };
 void main() {
     bool idle = steps[STEPS_ASLEEP] >= IDLE_STEPS;
     if (idle && counts[STATUS_FAILED] == 0u) steps[STEPS_MADE]++;
-    counts[COUNT_SWIFT] = 0u;
     publishCount(COUNT_BOXES, idle ? 0u : pieces, NO_INDEX);
     publishCount(COUNT_BODIES, idle ? 0u : bodies, NO_INDEX);
     publishCount(COUNT_ONCE, idle ? 0u : 1u, NO_INDEX);

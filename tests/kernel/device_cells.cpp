@@ -174,21 +174,23 @@ RawCells cutRaw(const SiteSet& set, Path path, brittle::Precision precision) {
         const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
         if (path == Path::FilteredEdges)
             commands.dispatchGroups(cutter("cut_cells_edges"), n, EdgesPush{push.bins, push.box_low, push.box_high, n},
-                                    {counts.words, sites, bin_start, bin_sites, result.raw, result.at, queue});
+                                    {counts.words, sites, bin_start, bin_sites, result.raw, result.at, queue, counts.args});
         else if (path == Path::FilteredLinear)
-            commands.dispatch(cutter("cut_cells_linear"), n, push, {counts.words, bin_sites, result.raw, result.at, queue});
+            commands.dispatch(cutter("cut_cells_linear"), n, push,
+                              {counts.words, bin_sites, result.raw, result.at, queue, counts.args});
         else if (tree)
-            commands.dispatch(
-                cutter("cut_cells_tree"), n, push,
-                {counts.words, bin_sites, result.raw, result.at, queue, tree->nodes, tree->leaf_start, tree->leaf_sites});
+            commands.dispatch(cutter("cut_cells_tree"), n, push,
+                              {counts.words, bin_sites, result.raw, result.at, queue, counts.args, tree->nodes,
+                               tree->leaf_start, tree->leaf_sites});
         else
-            commands.dispatch(cutter("cut_cells"), n, push, {counts.words, bin_sites, result.raw, result.at, queue, bin_start});
+            commands.dispatch(cutter("cut_cells"), n, push,
+                              {counts.words, bin_sites, result.raw, result.at, queue, counts.args, bin_start});
     };
     const auto exact = [&](engine::Commands& commands, uint32_t k, const SizeClass& size) {
         const CutPush push = cutPush(set, binned, k, path);
         const std::initializer_list<engine::BufferView> buffers = {counts.words, sites,      bin_start, bin_sites,
                                                                    queue,        result.raw, result.at, store};
-        counts.publish(commands, COUNT_EXACT_SMALL + k, size.room);
+        if (k > 0) counts.publish(commands, COUNT_EXACT_SMALL + k, size.room);
         if (push.cell_count != NO_INDEX)
             commands.dispatchGroups(cutter(size.kernel), n, push, buffers);
         else

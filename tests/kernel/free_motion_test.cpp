@@ -3,6 +3,7 @@
 #include "tests/reference/rigid_motion.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace kernel_test {
@@ -268,6 +269,27 @@ TEST(SmallFreeMotion, LeavesWhatIsNotSolvedWhereItIs) {
     const auto states = valuesOf<gpu::BodyState>(b.states, 2);
     EXPECT_EQ(wordsIn(states[0]), wordsIn(bodies[0].state));
     EXPECT_NE(placeOf(states[1]), bodies[1].place());
+}
+
+// What is no number would spread.
+TEST(SmallFreeMotion, StopsWhatFloatsCannotHold) {
+    const float no_number = std::numeric_limits<float>::quiet_NaN(), endless = std::numeric_limits<float>::infinity();
+    for (const float wrong : {no_number, endless, -endless})
+        for (const bool turns : {false, true}) {
+            const std::vector<RigidBody> bodies = {tumbling(6, 3), tumbling(7, 3), tumbling(8, 3)};
+            Buffers b(bodies);
+            begin(b, {});
+            gpu::SolverBody& thrown = b.solver_bodies.mappedAs<gpu::SolverBody>()[1];
+            (turns ? thrown.spin : thrown.velocity).y = wrong;
+            end(b, {});
+            EXPECT_EQ(b.counts[STATUS_STOPPED_BODY], 2u);
+            const auto states = valuesOf<gpu::BodyState>(b.states, 3);
+            EXPECT_EQ(placeOf(states[1]), bodies[1].place());
+            for (const gpu::vec4& still : {states[1].velocity, states[1].spin, states[1].momentum})
+                EXPECT_EQ(xyz(still), Vector(0, 0, 0));
+            EXPECT_EQ(xyz(states[0].velocity), xyz(bodies[0].state.velocity));
+            EXPECT_EQ(xyz(states[2].velocity), xyz(bodies[2].state.velocity));
+        }
 }
 
 TEST(SmallFreeMotion, LeavesAllWhereItWasIfTheStepFailed) {

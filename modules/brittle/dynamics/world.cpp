@@ -71,6 +71,7 @@ public:
                 if (auto done = submit(k & 1); !done) return done;
             auto words = takeStock();
             if (!words) return words.error();
+            if (const uint32_t stopped = (*words)[STATUS_STOPPED_BODY]; stopped != 0) return forget(stopped - 1);
             const uint32_t needed = (*words)[STATUS_NEEDED + COUNT_BOX_PAIRS];
             const bool lacks_pairs = (*words)[STATUS_FAILED] != 0 && needed > b_.sizes.pairs;
             const bool can_grow = budget_.pairs == 0 && needed <= mostPairs(device_);
@@ -220,6 +221,17 @@ private:
         if (auto read = fetch(device_, wanted); !read) return read.error();
         made_ = steps;
         return words;
+    }
+
+    // That a body was stopped is told once.
+    Result<void> forget(uint32_t body) {
+        engine::Commands commands(device_);
+        if (auto begun = commands.begin(); !begun) return begun;
+        commands.fill(engine::BufferView(b_.counts).sub(4 * STATUS_STOPPED_BODY, 4), 0);
+        if (auto done = commands.submitAndWait(); !done) return done;
+        return Error{ErrorCode::BadInput, "by step " + std::to_string(made_) + " the motion of body " +
+                                              std::to_string(order_.body_at[body]) +
+                                              " is beyond what floats hold; it was stopped where it was. Smaller steps help"};
     }
 
     Result<void> failureOf(const std::vector<uint32_t>& words) const {

@@ -60,7 +60,8 @@ public:
     virtual ~World() = default;
 
     // Steps and waits. Errors: Capacity, with the pool and what it lacked, where the budget says how large it is or the device
-    // can bind no more: the step that did not fit has not been made.
+    // can bind no more: the step that did not fit has not been made. BadInput, told once, for
+    // a body, by its index as added, whose motion outgrew floats: it stays where it was, at rest.
     virtual engine::Result<void> step(uint32_t steps = 1) = 0;
 
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;

@@ -1,8 +1,8 @@
 #include "modules/brittle/fracture/fracture.h"
 
-#include "modules/brittle/fracture/group_size.h"
 #include "engine/kernel_warmup.h"
 #include "modules/brittle/fracture/event.h"
+#include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/readback.h"
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
@@ -13,6 +13,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace brittle {
 namespace {
@@ -28,6 +29,9 @@ constexpr uint32_t kMaxAttempts = 12;
 
 // A workgroup adds up the triangles of a fragment, which may be all of the mesh.
 constexpr size_t kMostTriangles = 3'000'000;
+
+// A general buffer this many times larger than an event needs is given back.
+constexpr uint64_t kMostSpare = 8;
 
 std::string megabytes(uint64_t bytes) { return std::to_string(bytes / (1024 * 1024)) + " MiB"; }
 
@@ -205,25 +209,31 @@ private:
         if (event.options.collider != 0) recordColliders(event);
     }
 
-    engine::Result<engine::ScratchArena> makeArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
-                                                   EventBuffers& b) {
+    // The general buffer is kept from event to event: fresh memory costs a page fault for every page that a kernel touches.
+    engine::Result<void> layOutArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b) {
         auto plan = engine::ScratchArena::create(device_, 256, "plan");
-        if (!plan) return plan;
+        if (!plan) return plan.error();
         const uint64_t largest = layOut(*plan, c, mesh, columns, b), most = device_.limits().maxStorageBufferRange;
         if (largest > most)
             return engine::Error{engine::ErrorCode::Capacity, "the event's largest list has " + megabytes(largest) +
                                                                   ", the device can bind " + megabytes(most) +
                                                                   "; use fewer sites or a smaller mesh"};
-        return engine::ScratchArena::create(device_, plan->peak(), "general buffer");
+        const bool fits = arena_ && arena_->capacity() >= plan->peak() && arena_->capacity() / kMostSpare <= plan->peak();
+        if (!fits) {
+            arena_.reset();
+            auto made = engine::ScratchArena::create(device_, plan->peak(), "general buffer");
+            if (!made) return made.error();
+            arena_ = std::move(*made);
+        }
+        arena_->reset();
+        layOut(*arena_, c, mesh, columns, b);
+        return arena_->status();
     }
 
     engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options,
                                     const Prepared& p, Capacities& capacity) {
         EventBuffers b;
-        auto arena = makeArena(capacity, mesh, p.columns, b);
-        if (!arena) return arena.error();
-        layOut(*arena, capacity, mesh, p.columns, b);
-        if (auto ok = arena->status(); !ok) return ok.error();
+        if (auto ok = layOutArena(capacity, mesh, p.columns, b); !ok) return ok.error();
         capacity.emit_window = emitWindow(device_.limits());
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
@@ -266,6 +276,7 @@ private:
 
     engine::Device& device_;
     uint32_t group_size_;
+    std::optional<engine::ScratchArena> arena_;
     engine::KernelLibrary kernels_;
     engine::KernelWarmup warmup_;
     Capacities::Rare met_; // by earlier events: recorded from the start, since a second attempt costs more than idle dispatches

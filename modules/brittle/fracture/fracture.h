@@ -52,6 +52,7 @@ struct FractureResult {
     double setup_ms = 0;                 // making pipelines and buffers
 };
 
+// Keeps its general buffer from one shatter to the next, until one needs more, or less than an eighth of it.
 class Fracture {
 public:
     // `group_size`: lanes of a workgroup in the kernels that run a lane an element, a power of two from 8 to 256 that the

@@ -36,10 +36,11 @@ CutPush cutPush(const Event& e, uint32_t size_class) {
 }
 
 // The queue of one size class; what it cannot hold is queued for the next, which is recorded once an event has met such cells.
+// The first queue is published as it is filled.
 void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t size_class, uint32_t capacity) {
     const auto& b = e.b;
     if (!recorded) return;
-    e.record.publish(COUNT_EXACT_SMALL + size_class, capacity);
+    if (size_class > 0) e.record.publish(COUNT_EXACT_SMALL + size_class, capacity);
     e.record.runGroups(name, e.record.groupsOf(COUNT_EXACT_SMALL + size_class), cutPush(e, size_class),
                        {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.queue, b.raw, b.cell_raw, b.store});
 }
@@ -47,7 +48,7 @@ void recordExact(const Event& e, std::string_view name, bool recorded, uint32_t 
 void recordEdges(const Event& e, const EdgesPush& push) {
     const auto& b = e.b;
     e.record.runGroups("cut_cells_edges", e.record.groupsOf(COUNT_SITES), push,
-                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.raw, b.cell_raw, b.queue});
+                       {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.raw, b.cell_raw, b.queue, e.record.args()});
 }
 
 void recordFiltered(const Event& e, const FastPush& push) {
@@ -56,13 +57,15 @@ void recordFiltered(const Event& e, const FastPush& push) {
     const Length sites = Length::of(e.capacity.sites);
     switch (e.search) {
     case Search::Linear:
-        return e.record.run("cut_cells_linear", sites, push, {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue});
+        return e.record.run("cut_cells_linear", sites, push,
+                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, e.record.args()});
     case Search::SphereTree:
-        return e.record.run("cut_cells_tree", sites, push,
-                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, b.tree, b.leaf_start, b.leaf_sites});
+        return e.record.run(
+            "cut_cells_tree", sites, push,
+            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, e.record.args(), b.tree, b.leaf_start, b.leaf_sites});
     default:
         return e.record.run("cut_cells", sites, push,
-                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, b.bin_start});
+                            {e.record.counts(), b.bin_sites, b.raw, b.cell_raw, b.queue, e.record.args(), b.bin_start});
     }
 }
 

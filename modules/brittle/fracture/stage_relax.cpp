@@ -22,7 +22,7 @@ void recordRelaxation(const Event& e) {
     e.record.run("relax_sites", Length::of(e.capacity.sites), push,
                  {e.record.counts(), b.sites, b.cell_raw, b.raw, b.grid_vertices, b.mesh_triangles, b.column_start,
                   b.column_triangles, b.raw_sites});
-    e.record.clear({e.record.counts().sub(4 * COUNT_EXACT_SMALL, 12)});
+    e.record.clear({e.record.counts().sub(4 * COUNT_EXACT_SMALL, 12), e.record.groupsOf(COUNT_EXACT_SMALL)});
     recordKeptSites(e);
     e.record.commands().endLabel();
 }
