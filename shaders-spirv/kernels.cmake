@@ -141,10 +141,15 @@ kernel(narrow_phase/build_manifolds.comp)
 
 # Dynamics.
 foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
-        order_adjacency prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)
+        order_adjacency order_islands prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)
     kernel(solver/${name}.comp)
 endforeach()
 kernel(solver/solve_contacts.comp NAME bounce_contacts DEFINES BOUNCE=1)
+kernel(solver/color_contacts.comp NAME color_islands DEFINES ISLANDS=1)
 kernel(solver/solve_rest.comp NAME bounce_rest DEFINES BOUNCE=1)
+kernel(solver/solve_rest.comp NAME solve_islands DEFINES ISLANDS=1)
+kernel(solver/solve_rest.comp NAME bounce_islands DEFINES ISLANDS=1 BOUNCE=1)
+kernel(solver/solve_rest.comp NAME solve_islands_wide DEFINES LANES=64u ISLANDS=1)
+kernel(solver/solve_rest.comp NAME bounce_islands_wide DEFINES LANES=64u ISLANDS=1 BOUNCE=1)
 kernel(solver/solve_rest.comp NAME solve_rest_wide DEFINES LANES=64u)
 kernel(solver/solve_rest.comp NAME bounce_rest_wide DEFINES LANES=64u BOUNCE=1)

@@ -26,6 +26,7 @@ GPU_NAMESPACE_BEGIN
 #define COUNT_ONCE 25         /* 1; 0 while all sleep */
 #define COUNT_AWAKE 26        /* bodies that move and do not sleep */
 #define COUNT_SWIFT 27        /* contacts, where any body is fast for its size, else 0 */
+#define COUNT_SOLVED_APART 28 /* workgroups that walk through contacts: one for every small island, one for what goes by color, if anything does */
 
 // A bit of STATUS_FAILED: islands could not be joined.
 #define FAILED_ISLANDS 16u
@@ -43,7 +44,14 @@ GPU_NAMESPACE_BEGIN
 #define WIDE_COLORS 8
 #define COLORS 64
 #define NO_COLOR COLORS /* in order behind all others */
-// With no more contacts than this one workgroup walks through all colors: its barriers cost less than dispatches.
+// Behind where the colors begin:
+#define COLORS_USED (COLORS + 2)    /* how many there are, of all contacts */
+#define COLORS_LACKED (COLORS + 3)  /* how many contacts have none */
+#define COLORS_ORDERED (COLORS + 4) /* how many there are of contacts that go by color, those of large islands */
+#define ISLANDS_APART (COLORS + 5)  /* how many islands go on their own */
+#define COLOR_WORDS (COLORS + 6)
+// With no more contacts than this, of the world or of an island, one workgroup walks through all colors: its barriers cost less
+// than dispatches.
 #define FEW_CONTACTS 1024
 
 // The first pass of a substep notes blows; what is pressed in it is no blow to the passes after.

@@ -2,6 +2,9 @@
 // new ones take turns: all that wait bid for their bodies, whoever has the best bid on both takes the lowest color that neither
 // body has yet (Jones and Plassmann 1993). Bids come from the contacts' places in the list, scrambled, so that neighbors in the
 // list do not wait for each other; nothing depends on which lane is first.
+//
+// Where islands are known (ISLANDS), small ones get a range of their own in the order of contacts, behind those of large ones,
+// and order_islands puts the colors in order there. What comes of it is the same: islands share no body that moves.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -18,15 +21,22 @@ UPDATES(4, uint, body_colors); // two words a body: colors that its contacts hav
 UPDATES(5, uint, bids);        // the best for each body, NO_INDEX for none
 UPDATES(6, uint, waiting);     // two lists
 WRITES(7, uint, contact_slots);
-WRITES(8, uint, color_start);  // where each color begins, NO_COLOR as the last, and the end
+WRITES(8, uint, color_start);  // where each color begins, NO_COLOR as the last, the end, and COLORS_*
 WRITES(9, uint, args);
+#ifdef ISLANDS
+READS(10, uint, islands);          // of a body: the lowest of its island
+UPDATES(11, uint, island_contacts); // of an island: how many, then where the next goes; 0 to begin with
+WRITES(12, uvec2, island_ranges);  // of each small island: its first contact and the end, in the order of contacts
+WRITES(13, uint, listed);          // contacts of small islands, island by island
+#endif
 layout(push_constant) uniform Push { uint capacity; };
 #include "lib/publish.glsl"
 
 const uint kMostRounds = 1024u;
 const uint kTurnBudget = 40000u; // of the 65,535 that Mesa's software device allows
 
-shared uint waiting_count[2], color_count[NO_COLOR + 1], cursor[NO_COLOR + 1];
+shared uint waiting_count[2], color_count[NO_COLOR + 1], cursor[NO_COLOR + 1], ordered;
+shared uint colors_used, colorless; // by all contacts, apart or not
 
 void sync() {
     memoryBarrierBuffer();
@@ -115,31 +125,63 @@ void colorNew(uint lane) {
     }
 }
 
+uint colorOf(uint c) { return min(memory[contact_pairs[c]].ids.w, NO_COLOR); }
+
+#ifdef ISLANDS
+#include "lib/order_by_island.glsl"
+#else
+bool isApart(uint c) { return false; }
+#endif
+
+// Of all that are not set apart.
 void countColors(uint lane, uint total) {
-    for (uint c = lane; c < total; c += LANES) atomicAdd(color_count[min(memory[contact_pairs[c]].ids.w, NO_COLOR)], 1u);
+    for (uint c = lane; c < total; c += LANES)
+        if (!isApart(c)) atomicAdd(color_count[colorOf(c)], 1u);
     sync();
     if (lane == 0u) {
         uint sum = 0u;
+        colors_used = 0u;
         for (uint k = 0u; k <= NO_COLOR; k++) {
+            if (color_count[k] != 0u && k < NO_COLOR) colors_used = k + 1u;
             color_start[k] = sum;
             cursor[k] = sum;
             sum += color_count[k];
         }
         color_start[NO_COLOR + 1u] = sum;
+        color_start[COLORS_ORDERED] = colors_used;
+        ordered = sum;
+        colorless = color_count[NO_COLOR];
     }
     sync();
 }
 
+void publish(uint lane, uint total, uint apart) {
+    bool many = ordered > FEW_CONTACTS;
+    if (lane < WIDE_COLORS) publishCount(COUNT_FIRST_COLOR + lane, many ? color_count[lane] : 0u, capacity);
+    if (lane == WIDE_COLORS) publishCount(COUNT_SWIFT, counts[COUNT_SWIFT] != 0u ? total : 0u, capacity);
+    if (lane == WIDE_COLORS + 1u) publishCount(COUNT_SOLVED_APART, apart + (ordered != 0u ? 1u : 0u), NO_INDEX);
+    if (lane == 0u) {
+        color_start[COLORS_USED] = colors_used;
+        color_start[COLORS_LACKED] = colorless;
+        color_start[ISLANDS_APART] = apart;
+    }
+}
+
 void main() {
-    uint lane = gl_LocalInvocationID.x, total = counts[COUNT_CONTACTS];
+    uint lane = gl_LocalInvocationID.x, total = counts[COUNT_CONTACTS], apart = 0u;
     if (lane < 2u) waiting_count[lane] = 0u;
     for (uint k = lane; k <= NO_COLOR; k += LANES) color_count[k] = 0u;
     sync();
     keepOldColors(lane, total);
     colorNew(lane);
+#ifdef ISLANDS
+    countIslands(lane, total);
+#endif
     countColors(lane, total);
     for (uint c = lane; c < total; c += LANES)
-        contact_slots[c] = atomicAdd(cursor[min(memory[contact_pairs[c]].ids.w, NO_COLOR)], 1u);
-    if (lane < WIDE_COLORS) publishCount(COUNT_FIRST_COLOR + lane, total > FEW_CONTACTS ? color_count[lane] : 0u, capacity);
-    if (lane == WIDE_COLORS) publishCount(COUNT_SWIFT, counts[COUNT_SWIFT] != 0u ? total : 0u, capacity);
+        if (!isApart(c)) contact_slots[c] = atomicAdd(cursor[colorOf(c)], 1u);
+#ifdef ISLANDS
+    apart = setApart(lane, total);
+#endif
+    publish(lane, total, apart);
 }

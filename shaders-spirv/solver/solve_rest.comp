@@ -1,5 +1,7 @@
 // The contacts of all colors that are not dispatched on their own, color by color, by one workgroup. What has no color goes one by
 // one in the end. Few lanes where they run in turn: a color seldom has work for many, and idle ones cost as much there.
+//
+// Where islands are known (ISLANDS) the last workgroup does that for large ones; every other walks through a small island.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -15,7 +17,13 @@ READS(0, uint, counts);
 READS(1, uint, color_start);
 UPDATES(2, SolverContact, solver_contacts);
 UPDATES(3, SolverBody, solver_bodies);
+#ifdef ISLANDS
+READS(4, uvec2, island_ranges);
+READS(5, uint, color_ends);
+#endif
 #include "lib/solve_contact.glsl"
+
+const uint kMostTurns = 65000u; // of the 65,535 that Mesa's software device allows
 
 void solve(uint c) {
 #ifdef BOUNCE
@@ -25,17 +33,44 @@ void solve(uint c) {
 #endif
 }
 
-void solveColor(uint color_, uint lane) {
-    uint begin = color_start[color_], end = color_start[color_ + 1u];
-    if (begin == end) return; // the same for all lanes
-    for (uint c = begin + lane; c < end; c += LANES) solve(c);
-    memoryBarrierBuffer();
-    barrier();
+// One loop for all: where a branch is not taken its side runs nevertheless, for nothing, on devices that run lanes in turn.
+#ifdef ISLANDS
+bool isIsland(uint group) { return group < color_start[ISLANDS_APART]; }
+uvec2 rangeOf(uint group) { return island_ranges[group]; }
+uint endOf(uint at) { return color_ends[at]; }
+#else
+bool isIsland(uint group) { return false; }
+uvec2 rangeOf(uint group) { return uvec2(0u); }
+uint endOf(uint at) { return at; }
+#endif
+
+// Which colors are walked through. Each contact without a color counts as one of its own, from NO_COLOR on.
+uvec2 colorsLeft() {
+    uint used = color_start[COLORS_ORDERED], lacked = color_start[NO_COLOR + 1u] - color_start[NO_COLOR];
+    uint first = color_start[NO_COLOR + 1u] > FEW_CONTACTS ? min(color, used) : 0u;
+    return uvec2(lacked != 0u && first == used ? NO_COLOR : first, lacked != 0u ? NO_COLOR + lacked : used);
+}
+
+uint colorAfter(uint at) {
+    bool last = at + 1u == color_start[COLORS_ORDERED];
+    return last && color_start[NO_COLOR] != color_start[NO_COLOR + 1u] ? NO_COLOR : at + 1u;
+}
+
+uvec2 colorRange(uint at) {
+    uint alone = color_start[NO_COLOR] + at - NO_COLOR, k = min(at, NO_COLOR);
+    return at >= NO_COLOR ? uvec2(alone, alone + 1u) : uvec2(color_start[k], color_start[k + 1u]);
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x, first = counts[COUNT_CONTACTS] > FEW_CONTACTS ? color : 0u;
-    for (uint k = first; k < COLORS; k++) solveColor(k, lane);
-    uint begin = color_start[NO_COLOR], end = color_start[NO_COLOR + 1u];
-    for (uint c = begin; lane == 0u && c < end; c++) solve(c);
+    uint lane = gl_LocalInvocationID.x, group = flatGroup();
+    if (group >= counts[COUNT_SOLVED_APART]) return;
+    bool island = isIsland(group);
+    uvec2 left = island ? rangeOf(group) : colorsLeft();
+    for (uint turn = 0u; turn < kMostTurns && left.x < left.y; turn++) {
+        uvec2 some = island ? uvec2(left.x, endOf(left.x)) : colorRange(left.x);
+        for (uint c = some.x + lane; c < some.y; c += LANES) solve(c);
+        memoryBarrierBuffer();
+        barrier();
+        left.x = island ? some.y : colorAfter(left.x);
+    }
 }

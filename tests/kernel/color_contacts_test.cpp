@@ -21,7 +21,7 @@ Colored colorsOnDevice(const Touching& touching) {
     const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(2 * bodies)),
                          bids = bufferOf(std::vector<uint32_t>(bodies, NO_INDEX)),
                          waiting = blankBuffer<uint32_t>(2 * count + 2), slots = blankBuffer<uint32_t>(count),
-                         start = blankBuffer<uint32_t>(COLORS + 2);
+                         start = blankBuffer<uint32_t>(COLOR_WORDS);
     onDevice([&](engine::Commands& commands) {
         commands.dispatchGroups(kernel("color_contacts"), 1, std::max(count, 1u),
                                 {in.counts.words, in.contact_pairs, in.memory, in.solver_bodies, body_colors, bids, waiting,
@@ -188,6 +188,107 @@ TEST(SmallColorContacts, OfTheFirstColorsArePublishedWhereThereAreMany) {
         EXPECT_EQ(many.wide_groups[color], (size + GROUP_SIZE - 1) / GROUP_SIZE);
     }
     EXPECT_GT(many.wide[0], 0u);
+}
+
+// Heaps that share no body, each an island named by its first body.
+struct Heaps {
+    Touching all;
+    std::vector<uint32_t> islands;  // of each body
+    std::vector<uint32_t> contacts; // of each heap
+};
+
+Heaps heapsOf(const std::vector<uint32_t>& sizes) {
+    Heaps heaps;
+    for (const uint32_t size : sizes) {
+        const Touching heap = randomHeap(size, size);
+        const auto first = static_cast<uint32_t>(heaps.all.moves.size());
+        heaps.all.moves.insert(heaps.all.moves.end(), heap.moves.begin(), heap.moves.end());
+        heaps.islands.resize(heaps.all.moves.size(), first);
+        for (const Word2& pair : heap.bodies)
+            heaps.all.add(first + pair[0], first + pair[1]);
+        heaps.contacts.push_back(size);
+    }
+    std::ranges::shuffle(heaps.all.bodies, Chance(9).engine());
+    return heaps;
+}
+
+struct ByIsland {
+    std::vector<uint32_t> colors, slots, start, ends;
+    std::vector<Word2> ranges; // of small islands
+};
+
+ByIsland islandsOnDevice(const Heaps& heaps) {
+    DeviceTouching in(heaps.all);
+    const uint32_t count = heaps.all.count(), bodies = static_cast<uint32_t>(heaps.all.moves.size());
+    const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(2 * bodies)),
+                         bids = bufferOf(std::vector<uint32_t>(bodies, NO_INDEX)),
+                         waiting = blankBuffer<uint32_t>(2 * count + 2), slots = blankBuffer<uint32_t>(count),
+                         start = blankBuffer<uint32_t>(COLOR_WORDS), islands = bufferOf(heaps.islands),
+                         sizes = bufferOf(std::vector<uint32_t>(bodies)), ranges = blankBuffer<Word2>(bodies),
+                         listed = blankBuffer<uint32_t>(count), ends = bufferOf(std::vector<uint32_t>(count));
+    onDevice([&](engine::Commands& commands) {
+        commands.dispatchGroups(kernel("color_islands"), 1, count,
+                                {in.counts.words, in.contact_pairs, in.memory, in.solver_bodies, body_colors, bids, waiting,
+                                 slots, start, in.counts.args, islands, sizes, ranges, listed});
+        commands.dispatchIndirect(kernel("order_islands"),
+                                  engine::BufferView(in.counts.args).sub(36 * COUNT_SOLVED_APART + 24, 12), engine::NoPush{},
+                                  {start, in.contact_pairs, in.memory, ranges, listed, slots, ends});
+    });
+    ByIsland out = {
+        {}, valuesOf<uint32_t>(slots, count), valuesOf<uint32_t>(start, COLOR_WORDS), valuesOf<uint32_t>(ends, count), {}};
+    out.ranges = valuesOf<Word2>(ranges, out.start[ISLANDS_APART]);
+    EXPECT_EQ(in.counts[COUNT_SOLVED_APART], out.ranges.size() + (out.start[NO_COLOR + 1] != 0));
+    for (const uint32_t pair : in.pair_of)
+        out.colors.push_back(in.memory.mappedAs<gpu::ContactMemory>()[pair].ids.w);
+    return out;
+}
+
+// Follows the ends of colors through a range as a workgroup does: what it meets, color by color.
+std::vector<std::vector<uint32_t>> walk(const ByIsland& out, const Word2& range) {
+    std::vector<uint32_t> contact_at(out.slots.size());
+    for (uint32_t c = 0; c < out.slots.size(); ++c)
+        contact_at[out.slots[c]] = c;
+    std::vector<std::vector<uint32_t>> met;
+    for (uint32_t begin = range[0]; begin < range[1] && out.ends[begin] > begin; begin = out.ends[begin])
+        met.emplace_back(contact_at.begin() + begin, contact_at.begin() + out.ends[begin]);
+    return met;
+}
+
+TEST(SmallColorContacts, OfSmallIslandsStandApartColorByColor) {
+    const Heaps heaps = heapsOf({5, FEW_CONTACTS + 1, 40, FEW_CONTACTS, 1, 1700, 333});
+    const ByIsland out = islandsOnDevice(heaps);
+    EXPECT_EQ(out.colors, colorsOnDevice(heaps.all).colors);
+    std::vector<uint32_t> sorted = out.slots;
+    std::ranges::sort(sorted);
+    EXPECT_EQ(sorted, countUp(heaps.all.count()));
+    EXPECT_EQ(out.start[NO_COLOR + 1], FEW_CONTACTS + 1 + 1700u);
+    EXPECT_EQ(out.start[COLORS_USED], 1 + *std::ranges::max_element(out.colors));
+    ASSERT_EQ(out.ranges.size(), 5u);
+    for (const Word2& range : out.ranges) {
+        uint32_t met = 0, last = 0;
+        std::set<uint32_t> islands;
+        for (const auto& color : walk(out, range)) {
+            met += static_cast<uint32_t>(color.size());
+            for (const uint32_t c : color) {
+                EXPECT_EQ(out.colors[c], out.colors[color.front()]);
+                islands.insert(heaps.islands[heaps.all.bodies[c][0]]);
+            }
+            EXPECT_GE(out.colors[color.front()], last);
+            last = out.colors[color.front()] + 1;
+        }
+        EXPECT_EQ(met, range[1] - range[0]);
+        EXPECT_EQ(islands.size(), 1u);
+    }
+}
+
+TEST(SmallColorContacts, WithoutAColorAreWalkedOneByOneInTheirIsland) {
+    Heaps crowd = {star(200), std::vector<uint32_t>(201, 0), {200}};
+    const ByIsland out = islandsOnDevice(crowd);
+    ASSERT_EQ(out.ranges.size(), 1u);
+    const auto met = walk(out, out.ranges[0]);
+    EXPECT_EQ(met.size(), 200u); // all share a body
+    EXPECT_EQ(out.start[COLORS_LACKED], 136u);
+    EXPECT_EQ(out.start[NO_COLOR + 1], 0u);
 }
 
 } // namespace

@@ -154,7 +154,9 @@ TEST(SmallHoldBack, StopsBodiesWhereTheyWouldGoTooDeepAndNoOthers) {
             const Meeting& m = meetings[k];
             const double share = double{std::bit_cast<float>(shares[k][0])}, allowed = m.allowed(), doubt = 1e-4;
             ASSERT_EQ(shares[k][0], shares[k][1]) << "both stop at one time";
-            if (!m.isSwift() || m.depthAt(1) < allowed - doubt) EXPECT_EQ(share, 1) << k;
+            if (!m.isSwift() || m.depthAt(1) < allowed - doubt) {
+                EXPECT_EQ(share, 1) << k;
+            }
             EXPECT_LE(m.isSwift() ? m.depthAt(share) : 0, allowed + doubt) << k;
             if (share == 1) continue;
             ++held;

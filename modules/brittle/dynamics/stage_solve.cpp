@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace brittle {
 namespace {
@@ -21,13 +22,19 @@ enum class Sweep : uint8_t { Push, PushAgain, Relax, Bounce };
 
 uint32_t pushWord(Sweep sweep) { return sweep == Sweep::Push ? PUSH_FIRST : sweep == Sweep::PushAgain ? PUSH_AGAIN : 0; }
 
-// What one workgroup walks through: all colors behind the wide ones, or, where there are few contacts, all.
+// What workgroups walk through: all colors behind the wide ones, or, where there are few contacts, all; and small islands.
 void recordRestOf(const Step& s, gpu::SolverPush push, Sweep sweep) {
     push.color = WIDE_COLORS;
-    const char* bounce = s.many_lanes ? "bounce_rest_wide" : "bounce_rest";
-    const char* solve = s.many_lanes ? "solve_rest_wide" : "solve_rest";
-    s.record.runGroups(sweep == Sweep::Bounce ? bounce : solve, s.record.groupsOf(COUNT_ONCE), push,
-                       {s.record.counts(), s.b.step.color_start, s.b.step.solver_contacts, s.b.step.solver_bodies});
+    const StepBuffers& b = s.b.step;
+    const std::string what = sweep == Sweep::Bounce ? "bounce_" : "solve_", lanes = s.many_lanes ? "_wide" : "";
+    const auto groups = s.record.groupsOf(COUNT_SOLVED_APART);
+    if (s.settings.sleeping)
+        s.record.runGroups(
+            what + "islands" + lanes, groups, push,
+            {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies, b.island_ranges, b.color_ends});
+    else
+        s.record.runGroups(what + "rest" + lanes, groups, push,
+                           {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies});
 }
 
 void recordColor(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t color) {
@@ -66,6 +73,26 @@ void recordList(const Step& s) {
     s.record.scan(kPairs, b.touches, b.sums, b.contact_offsets,
                   {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.contacts, 0, 0, 0}});
     s.record.compact(kPairs, b.contact_offsets, b.contact_pairs);
+}
+
+void recordOrder(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    const auto& counts = s.record.counts();
+    const auto once = s.record.groupsOf(COUNT_ONCE);
+    s.record.clear({b.body_colors});
+    s.record.commands().fill(b.bids, NO_INDEX);
+    if (!s.settings.sleeping)
+        return s.record.runGroups("color_contacts", once, s.b.sizes.contacts,
+                                  {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
+                                   b.contact_slots, b.color_start, s.record.args()});
+    s.record.clear({b.island_contacts});
+    s.record.runGroups("color_islands", once, s.b.sizes.contacts,
+                       {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
+                        b.contact_slots, b.color_start, s.record.args(), b.islands, b.island_contacts, b.island_ranges,
+                        b.listed});
+    s.record.runGroups(
+        "order_islands", s.record.groupsOf(COUNT_SOLVED_APART), engine::NoPush{},
+        {b.color_start, b.contact_pairs, s.now.contacts, b.island_ranges, b.listed, b.contact_slots, b.color_ends});
 }
 
 void recordAdjacency(const Step& s) {
@@ -114,15 +141,9 @@ gpu::SolverPush solverPush(const Step& s) {
 
 void recordColors(const Step& s) {
     if (!s.settings.contacts) return;
-    const StepBuffers& b = s.b.step;
-    const auto& counts = s.record.counts();
     s.record.commands().beginLabel("colors");
     recordList(s);
-    s.record.clear({b.body_colors});
-    s.record.commands().fill(b.bids, NO_INDEX);
-    s.record.runGroups("color_contacts", s.record.groupsOf(COUNT_ONCE), s.b.sizes.contacts,
-                       {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
-                        b.contact_slots, b.color_start, s.record.args()});
+    recordOrder(s);
     recordAdjacency(s);
     s.record.commands().endLabel();
 }
@@ -145,8 +166,9 @@ void recordSolve(const Step& s) {
 void recordEnd(const Step& s) {
     s.record.commands().beginLabel("end");
     recordHolding(s);
-    s.record.run("end_step", kBodies, fallingOf(s),
-                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps, s.b.step.shares});
+    s.record.run(
+        "end_step", kBodies, fallingOf(s),
+        {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps, s.b.step.shares});
     recordRest(s);
     s.record.commands().endLabel();
 }

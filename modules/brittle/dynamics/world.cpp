@@ -91,19 +91,18 @@ public:
     }
 
     Result<WorldCounts> counts() override {
-        std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLORS + 2);
+        std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLOR_WORDS);
         const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()},
                                 {b_.args, args.data(), 4 * args.size()},
                                 {b_.step.color_start, colors.data(), 4 * colors.size()}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         WorldCounts c = {b_.sizes.bodies, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS],
                          words[COUNT_FRESH_PAIRS]};
-        for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_ONCE; k++)
+        for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_SOLVED_APART; k++)
             c.groups += args[9 * k] * args[9 * k + 1];
-        for (uint32_t k = 0; k < COLORS; k++)
-            if (colors[k + 1] != colors[k]) c.colors = k + 1;
+        c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
         c.awake = settings_.sleeping ? words[COUNT_AWAKE] : b_.movers;
-        c.colorless = colors[NO_COLOR + 1] - colors[NO_COLOR];
+        c.colorless = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_LACKED];
         return c;
     }
 

@@ -70,12 +70,15 @@ StepBuffers layOutStep(engine::ScratchArena& arena, const WorldSizes& n) {
     s.spins = take(n.bodies, 16);
     s.shares = take(n.bodies, 4);
     s.solver_contacts = take(n.contacts, sizeof(gpu::SolverContact));
-    for (BufferView* view : {&s.parents, &s.islands, &s.rests})
+    for (BufferView* view : {&s.parents, &s.islands, &s.rests, &s.island_contacts})
         *view = take(n.sleeping ? n.bodies : 0, 4);
+    s.island_ranges = take(n.sleeping ? n.bodies : 0, 8);
+    for (BufferView* view : {&s.listed, &s.color_ends})
+        *view = take(n.sleeping ? n.contacts : 0, 4);
     s.body_colors = take(n.bodies, 8);
     s.bids = take(n.bodies, 4);
     s.waiting = take(n.contacts, 8);
-    s.color_start = take(COLORS + 2, 4);
+    s.color_start = take(COLOR_WORDS, 4);
     s.adjacency_counts = take(n.bodies, 4);
     s.adjacency_cursors = take(n.bodies, 4);
     s.adjacency_start = take(n.bodies + 1ull, 4);
