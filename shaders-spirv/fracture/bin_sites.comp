@@ -18,6 +18,6 @@ layout(push_constant) uniform Push {
 void main() {
     uint s = flatIndex();
     if (s >= counts[COUNT_SITES]) return;
-    uint bin = binIndex(binOf(sites[s].xyz));
+    uint bin = binIndexOf(sites[s].xyz);
     loose_sites[bin_start[bin] + atomicAdd(bin_cursors[bin], 1u)] = s;
 }

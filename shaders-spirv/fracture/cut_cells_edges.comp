@@ -95,7 +95,7 @@ void main() {
     self = uint(own.w);
     site = own.xyz;
     open_total = 0u;
-    startCell(lane, site, box_low.xyz, box_high.xyz);
+    startCell(lane, inTile(site), box_low.xyz, box_high.xyz);
     searchCell(lane, false);
     writeCell(lane);
 }

@@ -53,7 +53,7 @@ void startFromBox(uint lane) {
         rim_sum[p] = 0;
         rim_squares[p] = 0;
     }
-    if (lane < 6u) setPlane(lane, wallOf(lane, site, box_low.xyz, box_high.xyz));
+    if (lane < 6u) setPlane(lane, wallOf(lane, inTile(site), box_low.xyz, box_high.xyz));
     startSearch(lane);
     sync();
     if (lane < 8u) {

@@ -106,9 +106,9 @@ Plane bisector(uint k) {
 Plane wall(uint k) {
     uint axis = k >> 1;
     bool high = (k & 1u) != 0u;
-    ivec3 d = ivec3(0);
+    ivec3 d = ivec3(0), from = inTile(site);
     d[axis] = high ? 1 : -1;
-    return Plane(d, BOX_BASE + FACE_DIRECTION, int64_t(2 * (high ? box_high[axis] - site[axis] : site[axis] - box_low[axis])));
+    return Plane(d, BOX_BASE + FACE_DIRECTION, int64_t(2 * (high ? box_high[axis] - from[axis] : from[axis] - box_low[axis])));
 }
 
 // Which plane of the cell that is started from a site's id stands for.

@@ -30,12 +30,13 @@ layout(push_constant) uniform Push {
     float step_size; // of the grid, in box units
 };
 #include "lib/piece_behind.glsl"
+#include "lib/tile.glsl"
 
 shared float lane_area[GROUP_SIZE];
 shared uint lane_pick[GROUP_SIZE];
 
 vec3 cornerOf(uint id) { return positions[id].xyz * unit; }
-vec3 siteOf(uint s) { return vec3(sites[s].xyz - ivec3(1 << 23)) * step_size; }
+vec3 siteOf(uint s) { return vec3(inTile(sites[s].xyz) - ivec3(1 << 23)) * step_size; }
 
 // The fragment behind one side of a cap, NO_INDEX where its fate was open when the round began.
 uint hostBehind(uint side) {

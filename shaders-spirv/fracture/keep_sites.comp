@@ -22,5 +22,5 @@ void main() {
     if (site_slot[s + 1u] == at) return;
     ivec3 p = ivec3(int(raw_sites[3u * s]), int(raw_sites[3u * s + 1u]), int(raw_sites[3u * s + 2u]));
     sites[at] = ivec4(p, int(s));
-    atomicAdd(bin_counts[binIndex(binOf(p))], 1u);
+    atomicAdd(bin_counts[binIndexOf(p)], 1u);
 }

@@ -22,6 +22,6 @@ void main() {
     uint s = flatIndex();
     if (s >= counts[COUNT_SITES]) return;
     ivec3 p = sites[s].xyz;
-    uint bin = binIndex(binOf(p)), first = bin_start[bin];
+    uint bin = binIndexOf(p), first = bin_start[bin];
     bin_sites[first + rankIn(first, bin_start[bin + 1u], s)] = ivec4(p, int(s));
 }

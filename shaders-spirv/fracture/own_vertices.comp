@@ -19,13 +19,13 @@ layout(push_constant) uniform Push {
     ivec4 box_low;
     uint length;
 };
+#include "lib/bin_lines.glsl"
 
 void main() {
     uint v = flatIndex();
     if (v >= length || counts[STATUS_FAILED] != 0u) return;
     ivec3 p = grid_vertices[v].xyz;
-    ivec3 b = clamp((p - box_low.xyz) / bins.w, ivec3(0), bins.xyz - 1);
-    uint at = bin_start[uint((b.z * bins.y + b.y) * bins.x + b.x)];
+    uint at = bin_start[binIndex(max(binOf(p), ivec3(0)), p)];
     uint own = uint(bin_sites[min(at, counts[COUNT_SITES] - 1u)].w);
     bool moved = true, tied = false;
     uint budget = MOST_TURNS;

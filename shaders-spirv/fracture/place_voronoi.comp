@@ -16,9 +16,11 @@ layout(push_constant) uniform Push {
 };
 #include "lib/place.glsl"
 #include "lib/quotient.glsl"
+#include "lib/tile.glsl"
 
-float toModel(int64_t x) {
-    int64_t centered = x - (int64_t(1) << 47);
+// Of a coordinate with its fraction.
+float toModel(int64_t x, int tile) {
+    int64_t centered = x - (int64_t(tile) << POINT_FRACTION_BITS) - (int64_t(1) << 47);
     precise float p = (float(int(centered >> 24)) + float(uint(centered) & 0xffffffu) * (1.0 / 16777216.0)) * step_size;
     return p;
 }
@@ -27,7 +29,7 @@ void main() {
     uint v = flatIndex();
     if (v >= counts[COUNT_VORONOI_VERTICES] || counts[STATUS_FAILED] != 0u) return;
     uvec4 s = vertex_sites[v];
-    ivec3 q = sites[s.x].xyz;
+    ivec3 q = sites[s.x].xyz, tile = tileOf(q);
     Corner t = cornerOf(bisectorOf(sites[s.y].xyz - q, s.y), bisectorOf(sites[s.z].xyz - q, s.z), bisectorOf(sites[s.w].xyz - q, s.w));
     bool turned = wideSign(t.volume) < 0;
     Wide128 den = wideDouble(turned ? wideNegate(t.volume) : t.volume);
@@ -37,5 +39,5 @@ void main() {
     }
     uint id = vertex_count + counts[COUNT_CROSSINGS] + counts[COUNT_TRIPLES] + v;
     savePoint(id, x[0], x[1], x[2]);
-    positions[id] = vec4(toModel(x[0]), toModel(x[1]), toModel(x[2]), 0.0);
+    positions[id] = vec4(toModel(x[0], tile.x), toModel(x[1], tile.y), toModel(x[2], tile.z), 0.0);
 }

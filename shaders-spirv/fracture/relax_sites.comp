@@ -26,6 +26,7 @@ layout(push_constant) uniform Push {
     uint slots;
 };
 #include "lib/raw_cell.glsl"
+#include "lib/tile.glsl"
 #include "lib/inside_solid.glsl"
 #include "lib/quotient.glsl"
 
@@ -35,7 +36,7 @@ ivec3 corner[RAW_CORNERS]; // from the site
 ivec3 site;
 
 Plane planeOf(uint id) {
-    if (id >= BOX_BASE) return wallOf(id - BOX_BASE, site, box_low.xyz, box_high.xyz);
+    if (id >= BOX_BASE) return wallOf(id - BOX_BASE, inTile(site), box_low.xyz, box_high.xyz);
     return bisectorOf(sites[id].xyz - site, id);
 }
 

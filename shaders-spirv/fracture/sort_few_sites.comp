@@ -53,7 +53,7 @@ void countBins(uint lane) {
     for (uint s = lane; s < site_count; s += LANES) {
         bool here = placed[s] != 0u;
         ivec3 place = placeOf(s);
-        uint bin = here ? binIndex(binOf(place)) : NO_INDEX;
+        uint bin = here ? binIndexOf(place) : NO_INDEX;
         bin_of[s] = bin;
         mark_of[s] = markOf(uvec3(place));
         if (here) number[s] = atomicAdd(held_by[bin], 1u);

@@ -1,7 +1,12 @@
-// The search bins, and lines of them along x. Wants the push constants bins and box_low.
+// The search bins, and lines of them along x; every tile has its own. Wants the push constants bins and box_low.
+#include "lib/tile.glsl"
 
-ivec3 binOf(ivec3 place) { return min((place - box_low.xyz) / bins.w, bins.xyz - 1); }
-uint binIndex(ivec3 bin) { return uint((bin.z * bins.y + bin.y) * bins.x + bin.x); }
+ivec3 binOf(ivec3 place) { return min((inTile(place) - box_low.xyz) / bins.w, bins.xyz - 1); }
+// `place`: any of the tile.
+uint binIndex(ivec3 bin, ivec3 place) {
+    return uint((bin.z * bins.y + bin.y) * bins.x + bin.x) + tileNumber(place) * uint(bins.x * bins.y * bins.z);
+}
+uint binIndexOf(ivec3 place) { return binIndex(binOf(place), place); }
 
 // Way from a site to a bin along one axis: to its nearest and its furthest place.
 vec2 spanOf(int bin, int from, int low) { return vec2(float(low + bin * bins.w - from), float(low + (bin + 1) * bins.w - from)); }
@@ -10,7 +15,7 @@ float gap(vec2 span) { return max(0.0, max(span.x, -span.y)); }
 // How near a site can be that lies in no bin of the cube of rings around the home bin; where the cube covers all bins,
 // further than any.
 float ringDistance(ivec3 site, ivec3 home, int ring) {
-    ivec3 below = site - box_low.xyz - (home - ring) * bins.w, above = (home + ring + 1) * bins.w - (site - box_low.xyz);
+    ivec3 at = inTile(site) - box_low.xyz, below = at - (home - ring) * bins.w, above = (home + ring + 1) * bins.w - at;
     float least = 1e30;
     for (int k = 0; k < 3; k++) {
         least = home[k] - ring > 0 ? min(least, float(below[k])) : least;

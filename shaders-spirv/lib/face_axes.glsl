@@ -21,6 +21,9 @@ float lowestCorner(uvec2 range, vec3 center, vec3 n) {
     return lowest;
 }
 
+// Of a half space no axis but the way out of it counts: along any other it has no end.
+bool isNoAxis(bool of_a, vec3 own_normal) { return pair.planes != 0u && ((pair.planes == 1u) != of_a || own_normal.y < 0.5); }
+
 // Lanes without a face look at the last one again, so that all turn alike.
 Seen seeFaces(bool of_a) {
     uint first = of_a ? pair.hull[0].first.y : pair.hull[1].first.y, count = of_a ? face_counts.x : face_counts.y;
@@ -37,7 +40,8 @@ Seen seeFaces(bool of_a) {
         vec3 axis = of_a ? n : -n;
         float towards = dot(axis, pair.place[1]);
         uint kind = of_a ? AXIS_FACE_A : AXIS_FACE_B;
-        see(seen, lowest + towards - height, dot(axis, pair.motion), 0.0, (kind << AXIS_KIND_SHIFT) | f);
+        bool counts = !isNoAxis(of_a, plane.xyz);
+        if (counts) see(seen, lowest + towards - height, dot(axis, pair.motion), 0.0, (kind << AXIS_KIND_SHIFT) | f);
         if (towards > 0.0) seen.reach = min(seen.reach, max(height, 0.0) / towards);
     }
     return seenByAll(seen);

@@ -10,6 +10,7 @@
 // Wants bin_sites, raw, cell_raw and the push constants box_low and box_high declared.
 #include "lib/filter_bounds.glsl"
 #include "lib/rounded_cut.glsl"
+#include "lib/tile.glsl"
 
 #define PLANES RAW_PLANES
 #define CORNERS 52
@@ -76,7 +77,7 @@ void startFromBox(ivec3 site) {
     for (uint k = 0u; k < ROLLED(CORNERS); k++) setCorner(k, vec3(0.0), 0.0);
     for (uint k = 0u; k < ROLLED(PLANES); k++) rim[k] = 0;
     for (uint k = 0u; k < ROLLED(LIST); k++) key[k] = kNoKey;
-    vec3 low = vec3(2 * (box_low.xyz - site)), high = vec3(2 * (box_high.xyz - site));
+    vec3 low = vec3(2 * (box_low.xyz - inTile(site))), high = vec3(2 * (box_high.xyz - inTile(site)));
     for (uint k = 0u; k < ROLLED(6); k++) {
         vec3 wall = (k & 1u) != 0u ? high : low;
         plane_x[k] = k / 2u == 0u ? wall.x : 0.0;

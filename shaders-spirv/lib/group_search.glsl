@@ -89,14 +89,15 @@ uint openLines(uint lane, uint first_line, int cube, bool all_bins) {
     int width = all_bins ? bins.y : 2 * cube + 1, line = int(first_line + lane);
     int y = all_bins ? line % width : home.y + line % width - cube, z = all_bins ? line / width : home.z + line / width - cube;
     bool inside = y >= 0 && y < bins.y && z >= 0 && z < bins.z && line < (all_bins ? bins.y * bins.z : width * width);
-    vec2 span_y = spanOf(y, site.y, box_low.y), span_z = spanOf(z, site.z, box_low.z), part = vec2(1e30, -1e30);
+    ivec3 from = inTile(site);
+    vec2 span_y = spanOf(y, from.y, box_low.y), span_z = spanOf(z, from.z, box_low.z), part = vec2(1e30, -1e30);
     uint looked = corner_top <= SIEVE_CORNERS ? corner_top : 0u;
     for (uint k = 0u; k < looked; k++) widenByBall(part, corner_place[k].xyz, corner_place[k].w, span_y, span_z);
     spend(looked + 1u);
-    ivec2 reached = looked == 0u ? ivec2(0, bins.x - 1) : binsOfPart(part, site.x);
+    ivec2 reached = looked == 0u ? ivec2(0, bins.x - 1) : binsOfPart(part, from.x);
     int x0 = all_bins ? reached.x : max(reached.x, home.x - cube), x1 = all_bins ? reached.y : min(reached.y, home.x + cube);
     bool any_ = inside && x0 <= x1;
-    uint row = any_ ? uint((z * bins.y + y) * bins.x) : 0u;
+    uint row = any_ ? binIndex(ivec3(0, y, z), site) : 0u;
     uint begin = any_ ? bin_start[row + uint(x0)] : 0u, end = any_ ? bin_start[row + uint(x1) + 1u] : 0u;
     line_first[lane] = begin;
     sumBefore(lane, end - begin);

@@ -33,18 +33,19 @@ void beginSearch(uint lane, ivec3 site) {
 // it, elsewhere its two ends. Steps to the next that the search radius reaches.
 bool findRow(ivec3 site, out ivec2 part) {
     bool found = at < row_end, fresh = !found;
+    ivec3 from = inTile(site);
     part = ivec2(1, 0);
     for (uint guard = 0u; guard < 4096u && !found && row_z <= ring; guard++) {
         bool whole = ring == 1 || abs(row_y) == ring || abs(row_z) == ring, right = row_half == 1;
-        float dy = gap(spanOf(home.y + row_y, site.y, box_low.y)), dz = gap(spanOf(home.z + row_z, site.z, box_low.z));
+        float dy = gap(spanOf(home.y + row_y, from.y, box_low.y)), dz = gap(spanOf(home.z + row_z, from.z, box_low.z));
         float left = reach - dy * dy - dz * dz, half_ = sqrt(max(left, 0.0));
-        ivec2 reached = binsOfPart(vec2(-half_, half_), site.x);
+        ivec2 reached = binsOfPart(vec2(-half_, half_), from.x);
         part.x = max(reached.x, !whole && right ? home.x + ring : home.x - ring);
         part.y = min(reached.y, !whole && !right ? home.x - ring : home.x + ring);
         bool inside = all(greaterThanEqual(ivec2(home.y + row_y, home.z + row_z), ivec2(0))) &&
                       all(lessThan(ivec2(home.y + row_y, home.z + row_z), bins.yz));
         found = inside && left >= 0.0 && part.x <= part.y;
-        row = binIndex(ivec3(0, home.y + row_y, home.z + row_z));
+        row = binIndex(ivec3(0, home.y + row_y, home.z + row_z), site);
         row_half = whole || right ? 0 : 1;
         row_y += row_half == 0 ? 1 : 0;
         bool slab_done = row_y > ring;
@@ -84,9 +85,10 @@ int outward(uint k, int h, int n) {
 // Steps to the next line of bins that the search radius reaches.
 bool findLine(ivec3 site) {
     bool found = at < row_end, fresh = !found;
+    ivec3 from = inTile(site);
     for (uint guard = 0u; guard < 4096u && !found && line_z < uint(bins.z) && budget > 0u; guard++) {
-        float dz = gap(spanOf(outward(line_z, home.z, bins.z), site.z, box_low.z));
-        float dy = gap(spanOf(outward(line_y, home.y, bins.y), site.y, box_low.y));
+        float dz = gap(spanOf(outward(line_z, home.z, bins.z), from.z, box_low.z));
+        float dy = gap(spanOf(outward(line_y, home.y, bins.y), from.y, box_low.y));
         bool slab = dz * dz <= reach;
         found = slab && dy * dy + dz * dz <= reach;
         row = line_y | (line_z << 16);
@@ -101,17 +103,18 @@ bool findLine(ivec3 site) {
 
 void openLine(ivec3 site) {
     int y = outward(row & 0xffffu, home.y, bins.y), z = outward(row >> 16, home.z, bins.z);
-    vec2 span_y = spanOf(y, site.y, box_low.y), span_z = spanOf(z, site.z, box_low.z), part = vec2(1e30, -1e30);
+    ivec3 from = inTile(site);
+    vec2 span_y = spanOf(y, from.y, box_low.y), span_z = spanOf(z, from.z, box_low.z), part = vec2(1e30, -1e30);
     ALL_CORNERS(k) widenByBall(part, vec3(corner_x[k], corner_y[k], corner_z[k]), corner_error[k], span_y, span_z);
-    ivec2 reached = binsOfPart(part, site.x);
+    ivec2 reached = binsOfPart(part, from.x);
     bool any_ = reached.x <= reached.y;
-    uint first = uint((z * bins.y + y) * bins.x);
+    uint first = binIndex(ivec3(0, y, z), site);
     at = any_ ? bin_start[first + uint(reached.x)] : 0u;
     row_end = any_ ? bin_start[first + uint(reached.y) + 1u] : 0u;
 }
 
 void fillFromLines(ivec3 site) {
-    ivec3 low = box_low.xyz + (home - kRings) * bins.w, high = box_low.xyz + (home + kRings + 1) * bins.w;
+    ivec3 corner = tileOf(site) + box_low.xyz, low = corner + (home - kRings) * bins.w, high = corner + (home + kRings + 1) * bins.w;
     bool more = phase == kSearching && ring == kLines;
     for (uint guard = 0u; guard < 4096u && more; guard++) {
         if (findLine(site)) openLine(site);

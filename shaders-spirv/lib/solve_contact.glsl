@@ -175,10 +175,10 @@ float traceOf(SolverBody b) { return b.inertia.x + b.inertia.w + b.spin.w; }
 
 // How far a body has turned, times how unlike its moments of inertia are: 0 for a cube, 1.4 for a rod.
 float changeByTurn(SolverBody b) {
-    float trace = traceOf(b);
-    vec3 diagonal = vec3(b.inertia.x, b.inertia.w, b.spin.w), side = vec3(b.inertia.yz, b.moved.w);
-    float unlike = 3.0 * (dot(diagonal, diagonal) + 2.0 * dot(side, side)) - trace * trace;
-    return unlike > 0.0 ? length(b.turned.xyz) * sqrt(unlike) / trace : 0.0;
+    float trace = traceOf(b), per_trace = trace > 0.0 ? 1.0 / trace : 0.0;
+    vec3 diagonal = per_trace * vec3(b.inertia.x, b.inertia.w, b.spin.w), side = per_trace * vec3(b.inertia.yz, b.moved.w);
+    float unlike = 3.0 * (dot(diagonal, diagonal) + 2.0 * dot(side, side)) - 1.0;
+    return unlike > 0.0 ? length(b.turned.xyz) * sqrt(unlike) : 0.0;
 }
 
 const float kHardlyTurned = 0.1, kHardlySlid = 0.05;

@@ -5,6 +5,8 @@
 // of the normal's components, which the plane makes up for: it never cuts into the fragment. In the form that cells are cut in,
 // d.w <= r with w = 2 (v - site). Normals have at most 22 bits, as differences of sites have 25, so the widths named in
 // lib/wide.glsl hold.
+#include "lib/tile.glsl"
+
 const int kGridMiddle = 1 << 23;
 
 ivec3 fineOf(vec3 position, float fine) { return ivec3(roundEven(position * fine)); }
@@ -15,7 +17,7 @@ int64_t heightAlong(ivec3 d, ivec3 p) {
 
 int64_t boundOf(ivec3 d, int64_t height, ivec3 site) {
     int slack = (abs(d.x) + abs(d.y) + abs(d.z)) / 2 + 8;
-    return ((height + int64_t(slack)) >> 3) - int64_t(2) * heightAlong(d, site - ivec3(kGridMiddle));
+    return ((height + int64_t(slack)) >> 3) - int64_t(2) * heightAlong(d, inTile(site) - ivec3(kGridMiddle));
 }
 
 // Along one of the fixed directions: normals of eight times its components.

@@ -7,7 +7,7 @@
 shared uint vertex_mask[CORNER_MASKS];
 shared uint face_mask[PLANE_MASKS];
 
-vec3 placeInModel(uint t) { return (vec3(site - ivec3(kGridMiddle)) + 0.5 * corner_place[t].xyz) * step_size; }
+vec3 placeInModel(uint t) { return (vec3(inTile(site) - ivec3(kGridMiddle)) + 0.5 * corner_place[t].xyz) * step_size; }
 
 uint vertexRank(uint t) { return cornersBefore(t, vertex_mask); }
 
@@ -105,7 +105,7 @@ void writeFace(uint p, uint base) {
     Plane e = planeAt(p);
     precise float size = length(vec3(e.d));
     precise vec3 n = vec3(e.d) / size;
-    precise float height = (longToFloat(e.r) / (2.0 * size) + dot(n, vec3(site - ivec3(kGridMiddle)))) * step_size;
+    precise float height = (longToFloat(e.r) / (2.0 * size) + dot(n, vec3(inTile(site) - ivec3(kGridMiddle)))) * step_size;
     loose_colliders[at] = floatBitsToUint(n.x);
     loose_colliders[at + 1u] = floatBitsToUint(n.y);
     loose_colliders[at + 2u] = floatBitsToUint(n.z);

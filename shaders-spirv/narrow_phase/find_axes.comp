@@ -70,7 +70,7 @@ Seen searchAll() {
     Seen faces = betterOf(a, b);
     vec4 heights = measureAlong(faceAxis(faces.feature));
     float depth = (is_fast ? kFar : max(-faces.separation, gapOf(a, b))) + tie;
-    bool wanted = !isApart(faces);
+    bool wanted = !isApart(faces) && pair.planes == 0u;
     listNearEdges(heights.z - depth, heights.y + depth, wanted);
     return withEdges(faces, wanted);
 }

@@ -7,6 +7,11 @@
 #define BOX_BASE 0xfffffff0u  /* six walls of the box: BOX_BASE + 0..5 = -x +x -y +y -z +z */
 #define EDGE_BASE 0xffffffe0u /* side of a clipped polygon on edge k of its triangle: EDGE_BASE + k */
 
+// A grid has coordinates from 0 to 2^24, a little more where the walls of its box are; an object's grid is in a tile of space.
+#define TILE_BITS 27
+#define TILE_MASK ((1 << TILE_BITS) - 1)
+#define TILES_IN_ROW 16 /* along x, and as many rows along y */
+
 // Lanes of a workgroup: in kernels whose lanes work together on one element, and, if the host does not set the
 // specialization constant to another power of two, in those of a lane an element. Then elements that one workgroup scans.
 #define GROUP_SIZE 64

@@ -10,9 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sys/wait.h>
 
 namespace {
 
@@ -198,6 +200,35 @@ TEST_F(SimulateCli, AFilmThatFailsLeavesNothingBehind) {
 }
 
 TEST_F(SimulateCli, HasToBeAskedForSomething) { expectRefused(simulate({"stack_10"}), 2, "give -o, --json or --state-hash"); }
+
+// `timeout` sends the signal once the run has made its first steps.
+TEST_F(SimulateCli, LeavesNothingBehindWhereItIsInterrupted) {
+    const std::string program = std::string(BRITTLE_BINARY_DIR) + "/brittle", scene = smallScene();
+    for (const char* signal : {"INT", "TERM"})
+        for (const char* output : {"a.glb", "a_%04d.png"}) {
+            const std::string command = "timeout --preserve-status -s " + std::string(signal) + " 1.5 " + program +
+                                        " simulate " + scene + " --seconds 10000 -o " + path(output) + " 2>/dev/null";
+            const int status = std::system(command.c_str());
+            EXPECT_EQ(WEXITSTATUS(status), 128 + (signal == std::string("INT") ? SIGINT : SIGTERM));
+            EXPECT_EQ(files(), std::set<std::string>{"small.toml"}) << signal << " " << output;
+        }
+}
+
+// A square with a corner that two triangles share and one that has collapsed to a line.
+TEST_F(SimulateCli, TakesCollidersWithTrianglesWithoutArea) {
+    std::ofstream(path("floor.obj")) << "v -5 0 -5\nv 5 0 -5\nv 5 0 5\nv -5 0 5\nv 0 0 0\nf 1 3 2\nf 1 4 3\nf 1 5 3\n";
+    std::ofstream(path("floor.toml")) << "name = \"floor\"\n[[body]]\nplace = [1, 0.6, 0.5]\n"
+                                         "[[collider]]\nshape = \"mesh\"\nfile = \"floor.obj\"\n";
+    const Outcome run = simulate({path("floor.toml"), "--seconds", "1", "--state-hash"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(SimulateCli, RefusesBodiesWhoseModelsAreOpen) {
+    std::ofstream(path("open.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"; // no fourth side
+    std::ofstream(path("open.toml")) << "name = \"open\"\n[[body]]\nname = \"tent\"\nshape = \"mesh\"\nfile = \"open.obj\"\n"
+                                        "sites = 5\n";
+    expectRefused(simulate({path("open.toml"), "--seconds", "1", "--state-hash"}), 2, "open.obj: 3 open edges");
+}
 
 TEST_F(SimulateCli, RefusesWhatIsWrongInOneLine) {
     expectRefused(simulate({"card_hous", "--json"}), 2, "did you mean 'card_house'?");

@@ -1,5 +1,5 @@
-// Bodies that are fast for their size, however they come in: turned, spinning, off the middle of what they hit. What they hit is
-// thinner than what they go in a step.
+// Bodies that are fast for their size, however they come in: turned, spinning, off the middle of what they hit. What they hit
+// is thinner than what they go in a step.
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/support/scene_run.h"
@@ -99,7 +99,8 @@ TEST_P(FastBodies, NeverPassAPlateThatIsFreeOrComesAtThem) {
                 run.step(1);
                 ASSERT_TRUE(run.isFinite());
                 const brittle::Pose plate_now = brittle::poseOf(run.state(1));
-                const Double3 ahead = brittle::turnedBack(plate_now.turn, run.place(0) - plate_now.place), gained = run.momentum() - momentum;
+                const Double3 ahead = brittle::turnedBack(plate_now.turn, run.place(0) - plate_now.place),
+                              gained = run.momentum() - momentum;
                 ASSERT_LT(ahead[0], kThickness / 2) << speed << " m/s, seed " << seed << ", step " << step;
                 ASSERT_LE(brittle::length(gained), 1e-6 * momentum_in_all) << speed << " m/s, seed " << seed;
                 ASSERT_LE(run.kineticEnergy(), 1.001 * energy) << speed << " m/s, seed " << seed << ", step " << step;
@@ -107,7 +108,8 @@ TEST_P(FastBodies, NeverPassAPlateThatIsFreeOrComesAtThem) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(, FastBodies, testing::ValuesIn(kShots), [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(, FastBodies, testing::ValuesIn(kShots),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // Their way leads along the wall after the blow, through another one that nothing had led to before.
 TEST(FastBodiesInACorner, StayInIt) {
@@ -153,6 +155,68 @@ TEST(Planes, BearBodiesAnywhere) {
     for (size_t body = 0; body < 4; ++body)
         EXPECT_NEAR(run.place(body)[1], 0.5, 2e-3) << body;
     EXPECT_NEAR(run.way(3)[0], 600, 1);
+}
+
+SceneDescription onAPlane(double gravity) {
+    SceneDescription scene = emptyScene();
+    scene.gravity = {0, -gravity, 0};
+    scene.effects.push_back("gravity");
+    scene.colliders.emplace_back();
+    return scene;
+}
+
+BodyDescription& addCube(SceneDescription& scene, double edge, const Double3& place) {
+    BodyDescription& cube = scene.bodies.emplace_back();
+    cube.shape = {.kind = ShapeKind::Box, .size = {edge, edge, edge}};
+    cube.place = place;
+    return cube;
+}
+
+// Below a plane there is nowhere to be pushed to but up.
+TEST(Planes, BringBackWhatIsWithinTenMetersBelow) {
+    SceneDescription scene = onAPlane(10);
+    for (const double depth : {1.0, 5.0, 5.5, 7.0, 9.4})
+        addCube(scene, 1, {3 * depth, -depth, 0});
+    SceneRun run(scene);
+    run.step(600);
+    for (size_t body = 0; body < scene.bodies.size(); ++body)
+        EXPECT_NEAR(run.place(body)[1], 0.5, 5e-3) << body;
+}
+
+TEST(Planes, BearWhatFallsOnThemAtAHundredTimesEarthsGravity) {
+    SceneDescription scene = onAPlane(1000);
+    addCube(scene, 1, {0, 5, 0});
+    addCube(scene, 1, {0, 7, 0});
+    SceneRun run(scene);
+    run.step(300);
+    for (size_t body = 0; body < 2; ++body)
+        EXPECT_GT(run.place(body)[1], 0.4);
+}
+
+// Moments of inertia from 1e-18 to 1e24 kg m2.
+TEST(BodiesOfAnySize, SpinOnAsTheyDid) {
+    for (const double edge : {1e-2, 1.0, 150.0, 1e4})
+        for (const double density : {1e-2, 1e3, 1e5}) {
+            if (density * edge * edge * edge > 1e13 || density * edge * edge * edge < 1e-6) continue;
+            SceneDescription scene = emptyScene();
+            BodyDescription& brick = addCube(scene, edge, {0, 0, 0});
+            brick.shape.size[1] *= 0.5;
+            brick.density = density;
+            brick.spin = {0, 3, 0};
+            SceneRun run(scene);
+            run.step(60);
+            EXPECT_NEAR(double{run.state(0).spin.y}, 3, 1e-4) << edge << " m, " << density;
+        }
+}
+
+TEST(BodiesOfAnySize, FallAndComeToRest) {
+    for (const double edge : {5e-3, 1.0, 150.0}) {
+        SceneDescription scene = onAPlane(10);
+        addCube(scene, edge, {0, 0.6 * edge, 0}).spin = {0.1, 0.2, 0};
+        SceneRun run(scene);
+        run.step(300);
+        EXPECT_NEAR(run.place(0)[1] / edge, 0.5, 1e-2) << edge;
+    }
 }
 
 } // namespace

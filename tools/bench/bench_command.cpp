@@ -1,9 +1,9 @@
 // brittle bench: its options and what it prints.
-#include "modules/brittle/export/output_file.h"
 #include "shaders-spirv/shared/fracture.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/dynamics_report.h"
 #include "tools/brittle/command.h"
+#include "tools/brittle/interrupt.h"
 
 #include <nlohmann/json.hpp>
 
@@ -143,7 +143,7 @@ int write(const Json& report, std::optional<brittle::OutputFile>& file) {
 // Before anything is measured, since that takes minutes.
 engine::Result<std::optional<brittle::OutputFile>> openOutput(const std::string& path) {
     if (path.empty()) return std::optional<brittle::OutputFile>();
-    auto file = brittle::OutputFile::create(path);
+    auto file = cli::createOutput(path);
     if (!file) return file.error();
     return std::optional<brittle::OutputFile>(std::move(*file));
 }

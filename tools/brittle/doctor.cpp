@@ -1,9 +1,9 @@
 // brittle doctor: whether a model can be broken, what is wrong with it where it cannot, and a mended one where that is
 // possible.
 #include "modules/brittle/export/model_file.h"
-#include "modules/brittle/export/output_file.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/doctor_report.h"
+#include "tools/brittle/interrupt.h"
 #include "tools/brittle/model.h"
 #include "tools/brittle/progress.h"
 #include "tools/brittle/same_file.h"
@@ -31,7 +31,7 @@ engine::Result<std::optional<brittle::OutputFile>> openOutput(const DoctorOption
     // An ending that cannot be written is better known before the work.
     if (const auto known = brittle::encodeModel({}, std::filesystem::path(options.output).extension().string()); !known)
         return refuse(known.error().message);
-    auto file = brittle::OutputFile::create(options.output);
+    auto file = createOutput(options.output);
     if (!file) return file.error();
     return std::optional<brittle::OutputFile>(std::move(*file));
 }

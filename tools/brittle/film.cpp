@@ -95,7 +95,10 @@ Result<pid_t> spawn(std::vector<std::string> arguments, int input, int errors) {
     sigemptyset(&usual);
     sigaddset(&usual, SIGPIPE);
     posix_spawnattr_setsigdefault(&settings, &usual);
-    posix_spawnattr_setflags(&settings, POSIX_SPAWN_SETSIGDEF);
+    sigset_t none; // what the parent waits for in a thread of its own
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&settings, &none);
+    posix_spawnattr_setflags(&settings, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     pid_t process = 0;
     const int failed = posix_spawnp(&process, kProgram, &files, &settings, words.data(), environ);
     posix_spawnattr_destroy(&settings);

@@ -1,9 +1,9 @@
 #include "tools/brittle/motion_output.h"
 
 #include "modules/brittle/export/motion_glb.h"
-#include "modules/brittle/export/output_file.h"
 #include "tools/brittle/film.h"
 #include "tools/brittle/frame_times.h"
+#include "tools/brittle/interrupt.h"
 #include "tools/brittle/numbered_name.h"
 #include "tools/brittle/world_picture.h"
 
@@ -72,7 +72,7 @@ public:
     Result<std::vector<double>> times(double seconds) const override { return frameTimes(seconds, fps_); }
     Result<void> begin(const Spectacle& s) override { return PictureOutput::open(s, world_); }
     Result<void> add(double, std::span<const Pose> poses) override {
-        auto file = OutputFile::create(name_.of(files_.size()));
+        auto file = createOutput(name_.of(files_.size()));
         if (!file) return file.error();
         files_.push_back(std::move(*file));
         const auto picture = world_->draw(poses);
@@ -121,14 +121,14 @@ private:
 
 template <class Output, class... More>
 Result<std::unique_ptr<MotionOutput>> openOutput(const std::string& path, More... more) {
-    auto file = OutputFile::create(path);
+    auto file = createOutput(path);
     if (!file) return file.error();
     return std::unique_ptr<MotionOutput>(std::make_unique<Output>(std::move(*file), more...));
 }
 
 Result<std::unique_ptr<MotionOutput>> openNumbered(const NumberedName& name, double fps) {
     // Whether the first could be written; it is removed again at once.
-    if (auto probe = OutputFile::create(name.of(0)); !probe) return probe.error();
+    if (auto probe = createOutput(name.of(0)); !probe) return probe.error();
     return std::unique_ptr<MotionOutput>(std::make_unique<PicturesOutput>(name, fps));
 }
 

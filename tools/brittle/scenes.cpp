@@ -1,10 +1,10 @@
 // brittle scenes: the built-in scenes, the keys of scene files, and whether a scene file is sound.
-#include "modules/brittle/export/output_file.h"
 #include "modules/brittle/scene/check_scene.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "modules/brittle/scene/scene_file.h"
 #include "modules/brittle/scene/scene_keys.h"
 #include "tools/brittle/command.h"
+#include "tools/brittle/interrupt.h"
 #include "tools/brittle/same_file.h"
 #include "tools/brittle/scene_source.h"
 
@@ -48,11 +48,11 @@ void printList(bool as_json) {
     if (as_json)
         std::printf("%s\n", list.dump(2).c_str());
     else
-        std::printf("\nAlso hull_pile_N and stack_N, with any number. brittle scenes NAME prints one as a file.\n");
+        std::printf("\nAlso hull_pile_N and stack_N, N up to 100000 and to 1000. brittle scenes NAME prints one as a file.\n");
 }
 
 engine::Result<void> write(const std::string& path, const std::string& text) {
-    auto file = brittle::OutputFile::create(path);
+    auto file = createOutput(path);
     if (!file) return file.error();
     if (auto written = file->write(text); !written) return written;
     return file->commit();

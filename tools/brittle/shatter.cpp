@@ -2,8 +2,8 @@
 
 #include "modules/brittle/collision/collider_mesh.h"
 #include "modules/brittle/export/glb.h"
-#include "modules/brittle/export/output_file.h"
 #include "tools/brittle/drop.h"
+#include "tools/brittle/interrupt.h"
 #include "tools/brittle/model.h"
 #include "tools/brittle/picture.h"
 #include "tools/brittle/progress.h"
@@ -109,7 +109,7 @@ engine::Result<void> Run::checkPathsApart() const {
 
 engine::Result<void> Run::openOutputs() {
     const auto open = [](const std::string& path, std::optional<brittle::OutputFile>& file) -> engine::Result<void> {
-        auto created = brittle::OutputFile::create(path);
+        auto created = createOutput(path);
         if (!created) return created.error();
         file.emplace(std::move(*created));
         return {};

@@ -27,7 +27,8 @@ Result<uint32_t> stepsOf(const brittle::StepDescription& step, std::optional<dou
 }
 
 Error aboutScene(const StagedScene& staged, const Error& error) {
-    const std::string advice = error.code == ErrorCode::Capacity ? " (" + staged.room_advice + ")" : "";
+    const bool is_budget = error.code == ErrorCode::Capacity && error.message.find("budget") != std::string::npos;
+    const std::string advice = is_budget ? " (" + staged.room_advice + ")" : "";
     return {error.code, staged.scene.name + ": " + error.message + advice};
 }
 

@@ -4,6 +4,7 @@
 #include "modules/brittle/dynamics/piece_shape.h"
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/sibling_contacts.h"
+#include "modules/brittle/mesh/check.h"
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/scene/body_shape.h"
 #include "modules/brittle/scene/shape_model.h"
@@ -18,7 +19,7 @@ using engine::ErrorCode;
 using engine::Result;
 
 constexpr double kPlaneEdge = 1000, kPlaneDepth = 10; // m, of the hull that is always below what a plane is held against
-constexpr double kLeastShown = 10; // m, of a plane's edge
+constexpr double kLeastShown = 10;                    // m, of a plane's edge
 
 Result<PieceShape> cellPiece(const FragmentSet& set, uint32_t k, double inflate) {
     const ColliderPiece& piece = set.colliders.pieces[k];
@@ -80,6 +81,9 @@ Result<Cells> cellsOf(const ShapeDescription& shape, const std::filesystem::path
     if (!model) return model.error();
     auto mesh = prepareMesh(*model);
     if (!mesh) return mesh.error();
+    if (shape.kind == ShapeKind::Mesh)
+        if (const auto sound = checkMesh(mesh->mesh, mesh->topology); !sound)
+            return Error{sound.error().code, shape.file + ": " + sound.error().message};
     FractureOptions options;
     options.site_count = std::max(shape.cells.sites, 1u);
     options.seed = shape.cells.seed;
@@ -112,13 +116,19 @@ PieceShape planePiece() {
     return piece;
 }
 
-// Every triangle is a piece of its own, with two sides.
+bool hasArea(const PieceShape& triangle) {
+    const Double3 base = toDouble(triangle.vertices[0]);
+    return length(cross(toDouble(triangle.vertices[1]) - base, toDouble(triangle.vertices[2]) - base)) > 0;
+}
+
+// Every triangle is a piece of its own, with two sides; one that has collapsed to a line is in nobody's way.
 std::vector<PieceShape> piecesOf(const ImportedMesh& model) {
     std::vector<PieceShape> pieces;
     for (const Index3& t : model.triangles) {
         PieceShape piece;
         for (const uint32_t v : t)
             piece.vertices.push_back(toFloat(model.positions[v]));
+        if (!hasArea(piece)) continue;
         piece.loops = {{0, 1, 2}, {2, 1, 0}};
         pieces.push_back(std::move(piece));
     }
@@ -322,6 +332,8 @@ Result<void> ContentsMaker::addSurface(const ColliderDescription& d, BodyDefinit
     const auto model = modelOf(d.shape, folder_);
     if (!model) return Error{model.error().code, "collider \"" + body.name + "\": " + model.error().message};
     body.pieces = piecesOf(*model);
+    if (body.pieces.empty())
+        return Error{ErrorCode::BadInput, "collider \"" + body.name + "\": no triangle of " + d.shape.file + " has an area"};
     return add(body, [&] { return surfaceOf(*model); });
 }
 

@@ -246,8 +246,9 @@ private:
             return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " finds " + std::to_string(contacts) +
                                                   " contacts, there is room for " + std::to_string(b_.sizes.contacts) +
                                                   "; raise the budget of contacts"};
-        return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " failed with status " +
-                                              std::to_string(words[STATUS_FAILED]) + ": a piece is near too many others"};
+        return Error{ErrorCode::Capacity, "in step " + std::to_string(made_ + 1) +
+                                              " a piece is near more than some ten thousand" +
+                                              " others, which no lane can walk through; use coarser meshes, or smaller bodies"};
     }
 
     std::vector<BufferView> stateViews() const {

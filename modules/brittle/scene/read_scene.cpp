@@ -244,6 +244,7 @@ engine::Result<SceneDescription> readScene(const std::filesystem::path& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return refuse("no such file");
     if (std::filesystem::file_size(path, error) > kMaxSceneBytes || error) return refuse("too large for a scene");
+    if (std::filesystem::file_size(path, error) == 0) return refuse("the file is empty; a scene has at least one body");
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();

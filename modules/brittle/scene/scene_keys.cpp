@@ -81,7 +81,7 @@ constexpr SceneKey kStepKeys[] = {
     {"substeps", at<&StepDescription::substeps>, from(1, 64), "", "of one step, in which contacts are solved"},
     {"iterations", at<&StepDescription::iterations>, from(1, 64), "", "over all contacts in a substep"},
     {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
-     "soft impulses, or the hard mode for great mass ratios and deep overlap"},
+     "soft impulses; the hard mode, for great mass ratios and deep overlap, is refused: it is not there yet"},
     {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e4), "1/s",
      "stiffness of soft contacts; an eighth of the substeps a second at most counts"},
     {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},
