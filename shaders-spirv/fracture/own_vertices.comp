@@ -25,8 +25,8 @@ void main() {
     uint v = flatIndex();
     if (v >= length || counts[STATUS_FAILED] != 0u) return;
     ivec3 p = grid_vertices[v].xyz;
-    uint at = bin_start[binIndex(max(binOf(p), ivec3(0)), p)];
-    uint own = uint(bin_sites[min(at, counts[COUNT_SITES] - 1u)].w);
+    uint at = bin_start[binIndex(max(binOf(p), ivec3(0)), p)], end = bin_start[binIndex(bins.xyz - 1, p) + 1u];
+    uint own = uint(bin_sites[min(at, max(end, 1u) - 1u)].w); // the last of its tile where no bin further on has any
     bool moved = true, tied = false;
     uint budget = MOST_TURNS;
     for (uint step = 0u; step < 8192u && moved && budget > 0u; step++) {

@@ -21,7 +21,7 @@ WRITES(5, ivec4, bin_sites); // position and id
 WRITES(6, uint, args);
 layout(push_constant) uniform Push {
     ivec4 bins;
-    ivec4 box_low;
+    ivec4 box_low; // w: tiles
     uint site_count; // up to FEW_SITES, in no more bins
 };
 #include "lib/bin_lines.glsl"
@@ -37,7 +37,7 @@ shared uint some_go;            // sites without a place, or with one that may b
 void sync() { barrier(); }
 #include "lib/sum_before.glsl"
 
-uint binCount() { return uint(bins.x * bins.y * bins.z); }
+uint binCount() { return uint(bins.x * bins.y * bins.z * box_low.w); }
 ivec3 placeOf(uint s) { return ivec3(int(raw_sites[3u * s]), int(raw_sites[3u * s + 1u]), int(raw_sites[3u * s + 2u])); }
 uint markOf(uvec3 p) { return p.x * 0x9e3779b1u ^ p.y * 0x85ebca77u ^ p.z * 0xc2b2ae3du; }
 uint binOfSite(uint s) { return bin_of[s] == NO_INDEX ? NO_INDEX : bin_of[s] & 0xffffu; }

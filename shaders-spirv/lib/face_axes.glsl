@@ -21,8 +21,12 @@ float lowestCorner(uvec2 range, vec3 center, vec3 n) {
     return lowest;
 }
 
-// Of a half space no axis but the way out of it counts: along any other it has no end.
-bool isNoAxis(bool of_a, vec3 own_normal) { return pair.planes != 0u && ((pair.planes == 1u) != of_a || own_normal.y < 0.5); }
+// Of a half space no axis but the way out of it counts: along any other it has no end. The hull that stands for it ends far away,
+// so that an axis that is not all but this one is never the best. `axis`: from A to B.
+bool leavesPlane(vec3 axis) {
+    float up = pair.planes == 1u ? axis.y : -dot(axis, pair.axes[1][1]);
+    return pair.planes == 0u || up > 0.5;
+}
 
 // Lanes without a face look at the last one again, so that all turn alike.
 Seen seeFaces(bool of_a) {
@@ -40,7 +44,7 @@ Seen seeFaces(bool of_a) {
         vec3 axis = of_a ? n : -n;
         float towards = dot(axis, pair.place[1]);
         uint kind = of_a ? AXIS_FACE_A : AXIS_FACE_B;
-        bool counts = !isNoAxis(of_a, plane.xyz);
+        bool counts = leavesPlane(axis);
         if (counts) see(seen, lowest + towards - height, dot(axis, pair.motion), 0.0, (kind << AXIS_KIND_SHIFT) | f);
         if (towards > 0.0) seen.reach = min(seen.reach, max(height, 0.0) / towards);
     }

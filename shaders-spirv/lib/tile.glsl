@@ -6,6 +6,7 @@
 
 ivec3 tileOf(ivec3 place) { return place & ~TILE_MASK; }
 ivec3 inTile(ivec3 place) { return place & TILE_MASK; }
+ivec3 tileAt(uint number) { return ivec3(int(number) % TILES_IN_ROW, int(number) / TILES_IN_ROW, 0) << TILE_BITS; }
 uint tileNumber(ivec3 place) { return uint((place.y >> TILE_BITS) * TILES_IN_ROW + (place.x >> TILE_BITS)); }
 
 #endif

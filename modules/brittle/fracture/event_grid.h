@@ -22,12 +22,13 @@ struct EventGrid {
     Int3 box_low{}, box_high{};   // mesh and sites never touch it
     Int4 bins{};                  // per axis; [3]: edge of a bin in grid steps
     uint32_t fullest_bin = 0;     // of given sites
+    uint32_t tiles = 1;           // of objects that are broken together (fracture/batch.h), each with its own bins
     double solid_volume = 0;      // of the mesh, cubed grid steps
     // Measures are taken in units of half the grid's edge, where a model of any size is at most 1 from the center.
     float unit() const { return scale * kStep; }
     static constexpr float kStep = 0x1p-23f; // of the grid, in these units
     uint32_t binCount() const {
-        return static_cast<uint32_t>(bins[0]) * static_cast<uint32_t>(bins[1]) * static_cast<uint32_t>(bins[2]);
+        return tiles * static_cast<uint32_t>(bins[0]) * static_cast<uint32_t>(bins[1]) * static_cast<uint32_t>(bins[2]);
     }
 };
 

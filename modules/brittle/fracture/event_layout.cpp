@@ -77,6 +77,7 @@ void takeDiagram(const Input& in, Taker& take) {
     b.triangle_edges = take.words(3 * mesh.triangles.size());
     b.mesh_edges = take.words(2ull * c.edges);
     b.grid_vertices = take.quads(c.vertices);
+    b.vertex_tiles = take.words(c.tiled ? c.vertices : 0);
     b.bin_start = take.words(c.bins + 1ull);
     b.bin_sites = take.quads(c.sites);
     if (c.collider_directions == 0) b.corners = take.quads(c.corners);

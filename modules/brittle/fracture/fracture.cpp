@@ -1,6 +1,7 @@
 #include "modules/brittle/fracture/fracture.h"
 
 #include "engine/kernel_warmup.h"
+#include "modules/brittle/fracture/batch.h"
 #include "modules/brittle/fracture/event.h"
 #include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/readback.h"
@@ -37,6 +38,7 @@ std::string megabytes(uint64_t bytes) { return std::to_string(bytes / (1024 * 10
 
 struct Attempt {
     FractureResult result;
+    std::vector<uint32_t> site_tiles; // of the sites used
     std::vector<uint32_t> status;
 };
 
@@ -49,9 +51,7 @@ public:
     engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                            const FractureOptions& options) override {
         auto start = Clock::now();
-        if (options.precision == Precision::Double && !device_.features().doubles)
-            return engine::Error{engine::ErrorCode::Device,
-                                 device_.name() + " has no 64-bit floats in shaders, which precision double needs; use exact"};
+        if (auto sound = checkOptions(options); !sound) return sound.error();
         auto prepared = prepare(mesh, options);
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
@@ -61,29 +61,71 @@ public:
         capacity.relaxed = options.relax != 0;
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
-        for (uint32_t attempt = 0; attempt < kMaxAttempts; attempt++) {
-            auto outcome = tryOnce(mesh, topology, options, *prepared, capacity);
-            if (!outcome) return outcome.error();
-            const bool again = capacity.grow(outcome->status.data());
-            met_ = capacity.rare;
-            if (!again) {
-                auto checked = checkStatus(outcome->status);
-                if (!checked) return advised(checked.error(), options.precision);
-                outcome->result.setup_ms = millisecondsSince(start) - outcome->result.total_ms;
-                return std::move(outcome->result);
-            }
-        }
-        return engine::Error{engine::ErrorCode::Capacity, "the event's pools still overflow after " +
-                                                              std::to_string(kMaxAttempts) +
-                                                              " attempts; use fewer sites or a smaller mesh"};
+        auto attempt = tryUntilItFits(mesh, topology, options, *prepared, capacity);
+        if (!attempt) return attempt.error();
+        attempt->result.setup_ms = millisecondsSince(start) - attempt->result.total_ms;
+        return std::move(attempt->result);
+    }
+
+    engine::Result<std::vector<FractureResult>> shatterTogether(std::span<const BreakingObject> objects,
+                                                                const FractureOptions& options) override {
+        auto start = Clock::now();
+        if (auto sound = checkOptions(options); !sound) return sound.error();
+        auto batch = joinObjects(objects);
+        if (!batch) return batch.error();
+        FractureOptions how = howToBreak(options);
+        how.site_count = static_cast<uint32_t>(batch->sites.size());
+        how.given_sites.resize(batch->sites.size());
+        Capacities capacity = withColliders(batch->capacity, options.collider);
+        if (options.caps == Caps::Convex) capacity.nodes = 0;
+        capacity.rare = met_.joined(capacity.rare);
+        const Prepared prepared = {batch->grid, {}, batch->sites, batch->vertex_tiles};
+        auto attempt = tryUntilItFits(batch->mesh, batch->topology, how, prepared, capacity);
+        if (!attempt) return attempt.error();
+        attempt->result.setup_ms = millisecondsSince(start) - attempt->result.total_ms;
+        return partResult(*batch, attempt->result, attempt->site_tiles);
     }
 
 private:
     struct Prepared {
         EventGrid grid;
         TriangleColumns columns;
-        std::vector<Double3> local_sites;
+        std::vector<Int3> sites;            // that are given, on the grid
+        std::vector<uint32_t> vertex_tiles; // where there are several objects
     };
+
+    engine::Result<void> checkOptions(const FractureOptions& options) const {
+        if (options.precision == Precision::Double && !device_.features().doubles)
+            return engine::Error{engine::ErrorCode::Device,
+                                 device_.name() + " has no 64-bit floats in shaders, which precision double needs; use exact"};
+        return checkCollider(options.collider);
+    }
+
+    static FractureOptions howToBreak(const FractureOptions& options) {
+        FractureOptions how;
+        how.search = Search::Grid;
+        how.caps = options.caps;
+        how.precision = options.precision;
+        how.collider = options.collider;
+        how.time_kernels = options.time_kernels;
+        return how;
+    }
+
+    engine::Result<Attempt> tryUntilItFits(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options,
+                                           const Prepared& prepared, Capacities& capacity) {
+        for (uint32_t k = 0; k < kMaxAttempts; k++) {
+            auto attempt = tryOnce(mesh, topology, options, prepared, capacity);
+            if (!attempt) return attempt;
+            const bool again = capacity.grow(attempt->status.data());
+            met_ = capacity.rare;
+            if (again) continue;
+            if (auto checked = checkStatus(attempt->status); !checked) return advised(checked.error(), options.precision);
+            return attempt;
+        }
+        return engine::Error{engine::ErrorCode::Capacity, "the event's pools still overflow after " +
+                                                              std::to_string(kMaxAttempts) +
+                                                              " attempts; use fewer sites or a smaller mesh"};
+    }
 
     // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit. Fetching all sites and going
     // through them, which the lanes do together, takes its part of them.
@@ -150,16 +192,15 @@ private:
             return engine::Error{engine::ErrorCode::Capacity,
                                  "the mesh has more than " + std::to_string(kMostTriangles) + " triangles; reduce it"};
         if (auto sound = checkImpact(mesh, options); !sound) return sound.error();
-        if (auto sound = checkCollider(options.collider); !sound) return sound.error();
         Prepared p;
-        for (Double3 s : options.given_sites) {
-            for (size_t k = 0; k < 3; k++)
-                s[k] -= mesh.center[k];
-            p.local_sites.push_back(s);
-        }
-        auto grid = makeEventGrid(mesh, p.local_sites, siteCount(options), aboutImpact(options));
+        std::vector<Double3> local_sites;
+        for (const Double3& site : options.given_sites)
+            local_sites.push_back(site - mesh.center);
+        auto grid = makeEventGrid(mesh, local_sites, siteCount(options), aboutImpact(options));
         if (!grid) return grid.error();
         p.grid = *grid;
+        for (const Double3& site : local_sites)
+            p.sites.push_back(snapToGrid(p.grid, site));
         if (options.given_sites.empty() || options.relax != 0) p.columns = makeColumns(mesh, p.grid);
         return p;
     }
@@ -179,12 +220,10 @@ private:
         upload.add(std::span(std::as_const(attributes)), b.corner_attributes);
     }
 
-    static void addSites(Upload& upload, const Prepared& p, std::vector<Int3>& sites, std::vector<uint32_t>& placed,
-                         const EventBuffers& b) {
-        for (const Double3& s : p.local_sites)
-            sites.push_back(snapToGrid(p.grid, s));
-        placed.assign(sites.size(), 1);
-        upload.add(std::span(std::as_const(sites)), b.raw_sites);
+    static void addSites(Upload& upload, const Prepared& p, std::vector<uint32_t>& placed, const EventBuffers& b) {
+        placed.assign(p.sites.size(), 1);
+        upload.add(std::span(p.sites), b.raw_sites);
+        upload.add(std::span(p.vertex_tiles), b.vertex_tiles);
         upload.add(std::span(std::as_const(placed)), b.placed);
         upload.add(std::span(p.columns.start), b.column_start);
         upload.add(std::span(p.columns.triangles), b.column_triangles);
@@ -244,10 +283,9 @@ private:
         if (options.time_kernels) commands.timeKernels();
         Upload upload;
         std::vector<float> attributes;
-        std::vector<Int3> sites;
         std::vector<uint32_t> placed;
         addMesh(upload, mesh, topology, attributes, b);
-        addSites(upload, p, sites, placed, b);
+        addSites(upload, p, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();
         Recorder recorder(commands, kernels_, b.counts, b.args, options.precision);
@@ -264,7 +302,7 @@ private:
         auto timings = commands.timings();
         if (!timings) return timings.error();
         attempt.result.timings = std::move(*timings);
-        auto read = readBack(device_, mesh, p.grid, options, b, scene->views(), attempt.result);
+        auto read = readBack(device_, mesh, p.grid, options, b, scene->views(), attempt.result, attempt.site_tiles);
         if (!read) return read.error();
         attempt.status = std::move(*read);
         if (capacity.collider_directions == 0 || attempt.status[STATUS_FAILED] != 0) return attempt;

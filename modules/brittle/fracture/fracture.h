@@ -14,6 +14,7 @@
 #include "modules/brittle/mesh/mesh.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,13 @@ struct FractureResult {
     double setup_ms = 0;                 // making pipelines and buffers
 };
 
+// One of several objects that break at once.
+struct BreakingObject {
+    const Mesh& mesh;
+    const MeshTopology& topology;
+    std::vector<Double3> sites; // model space, at least one
+};
+
 // Keeps its general buffer from one shatter to the next, until one needs more, or less than an eighth of it.
 class Fracture {
 public:
@@ -64,6 +72,11 @@ public:
     // lacks doubles that were asked for), Internal (signs that contradict each other: only at less than exact precision).
     virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                                    const FractureOptions& options) = 0;
+    // Breaks up to 256 objects by one recording: a result for each, as shatter would have it of each alone, but for the order
+    // of fragments and corners; times stand with the first. Of the options those count that say how: caps, precision, collider,
+    // time_kernels. Errors: as above, with the object's number, counted from 1, where it is one object's.
+    virtual engine::Result<std::vector<FractureResult>> shatterTogether(std::span<const BreakingObject> objects,
+                                                                        const FractureOptions& options) = 0;
 };
 
 } // namespace brittle

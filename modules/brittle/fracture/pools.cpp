@@ -128,6 +128,20 @@ Capacities forCellsOnly(Capacities c) {
     return c;
 }
 
+void Capacities::add(const Capacities& other) {
+    for (uint32_t Capacities::*pool :
+         {&Capacities::sites,         &Capacities::vertices,   &Capacities::edges,     &Capacities::triangles,
+          &Capacities::bins,          &Capacities::neighbors,  &Capacities::corners,   &Capacities::voronoi_vertices,
+          &Capacities::voronoi_edges, &Capacities::crossings,  &Capacities::pairs,     &Capacities::polygons,
+          &Capacities::sides,         &Capacities::triples,    &Capacities::fans,      &Capacities::intervals,
+          &Capacities::segments,      &Capacities::nodes,      &Capacities::caps,      &Capacities::flap_sides,
+          &Capacities::pieces,        &Capacities::components, &Capacities::fragments, &Capacities::emitted,
+          &Capacities::exact_medium,  &Capacities::exact_large})
+        this->*pool += other.*pool;
+    clip_rounds = std::max(clip_rounds, other.clip_rounds);
+    rare = rare.joined(other.rare);
+}
+
 bool Capacities::grow(const uint32_t* status) {
     const uint32_t* needed = status + STATUS_NEEDED;
     bool more = takeUp(rare.exact_cells, status[COUNT_EXACT_SMALL] != 0);

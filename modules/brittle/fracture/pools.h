@@ -30,6 +30,7 @@ struct Capacities {
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
+    bool tiled = false;       // of several objects
     bool relaxed = false;     // sites are still moved when cells have been cut
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
@@ -55,6 +56,8 @@ struct Capacities {
     uint32_t pointTable() const;
     uint32_t flapTable() const;
     uint32_t edgeTable() const;
+    // Room for both.
+    void add(const Capacities& other);
     // Makes room for what an attempt found out that it needs, from the words of counts and status it left. False: nothing
     // is amiss that more room would cure.
     bool grow(const uint32_t* status);
@@ -71,7 +74,7 @@ struct EventBuffers {
     using View = engine::BufferView;
     View counts, args, sums;
     // mesh
-    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, corner_attributes, grid_vertices;
+    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, corner_attributes, grid_vertices, vertex_tiles;
     // sites
     View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags,
         site_offsets;

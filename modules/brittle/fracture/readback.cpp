@@ -60,7 +60,7 @@ void fillCounts(const std::vector<uint32_t>& status, const FractureOptions& opti
 
 engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mesh& mesh, const EventGrid& grid,
                                                const FractureOptions& options, const EventBuffers& b, const ScenePools& scene,
-                                               FractureResult& result) {
+                                               FractureResult& result, std::vector<uint32_t>& site_tiles) {
     std::vector<uint32_t> status(STATUS_WORDS);
     const Fetch first[] = {{b.counts, status.data(), 4ull * STATUS_WORDS}};
     if (auto ok = fetch(device, first); !ok) return ok.error();
@@ -77,7 +77,8 @@ engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mes
                           {scene.indices, set.indices.data(), 4 * set.indices.size()}};
     if (auto ok = fetch(device, rest); !ok) return ok.error();
     for (const Int4& s : sites) {
-        Double3 p = fromGrid(grid, {s[0], s[1], s[2]});
+        Double3 p = fromGrid(grid, {s[0] & TILE_MASK, s[1] & TILE_MASK, s[2] & TILE_MASK});
+        site_tiles.push_back(static_cast<uint32_t>((s[1] >> TILE_BITS) * TILES_IN_ROW + (s[0] >> TILE_BITS)));
         for (size_t k = 0; k < 3; k++)
             p[k] += mesh.center[k];
         result.sites.push_back(p);

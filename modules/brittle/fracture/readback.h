@@ -8,7 +8,7 @@ namespace brittle {
 // Fills fragments, sites and counts of `result`; returns the words of counts and status.
 engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mesh& mesh, const EventGrid& grid,
                                                const FractureOptions& options, const EventBuffers& b, const ScenePools& scene,
-                                               FractureResult& result);
+                                               FractureResult& result, std::vector<uint32_t>& site_tiles);
 
 // An event that finished, but not well: what went wrong, for the user.
 engine::Result<void> checkStatus(const std::vector<uint32_t>& status);

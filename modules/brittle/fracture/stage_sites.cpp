@@ -105,7 +105,7 @@ void recordFewSites(const Event& e) {
     struct Push {
         Int4 bins, low;
         uint32_t site_count;
-    } push = {e.grid.bins, withLast(e.grid.box_low, 0), e.capacity.sites};
+    } push = {e.grid.bins, withLast(e.grid.box_low, static_cast<int32_t>(e.grid.tiles)), e.capacity.sites};
     const auto& b = e.b;
     e.record.runGroups("sort_few_sites", 1, push,
                        {e.record.counts(), b.raw_sites, b.placed, b.sites, b.bin_start, b.bin_sites, e.record.args()});
@@ -119,7 +119,11 @@ void recordSites(const Event& e) {
         float scale;
     } snap = {e.capacity.vertices, e.grid.scale};
     e.record.commands().beginLabel("place_sites");
-    e.record.run("snap_vertices", Length::of(e.capacity.vertices), snap, {e.b.mesh_positions, e.b.grid_vertices});
+    const Length vertices = Length::of(e.capacity.vertices);
+    if (e.grid.tiles > 1)
+        e.record.run("snap_tiles", vertices, snap, {e.b.mesh_positions, e.b.grid_vertices, e.b.vertex_tiles});
+    else
+        e.record.run("snap_vertices", vertices, snap, {e.b.mesh_positions, e.b.grid_vertices});
     if (e.options.given_sites.empty()) recordPlacement(e);
     e.record.commands().endLabel();
     e.record.commands().beginLabel("neighbor_grid");
