@@ -6,6 +6,7 @@
 #include "modules/brittle/dynamics/sibling_contacts.h"
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/scene/body_shape.h"
+#include "modules/brittle/scene/scene_material.h"
 #include "modules/brittle/scene/shape_model.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using engine::ErrorCode;
 using engine::Result;
 
 constexpr double kPlaneEdge = 1000, kPlaneDepth = 10; // m, of the hull that is always below what a plane is held against
-constexpr double kLeastShown = 10; // m, of a plane's edge
+constexpr double kLeastShown = 10;                    // m, of a plane's edge
 
 Result<PieceShape> cellPiece(const FragmentSet& set, uint32_t k, double inflate) {
     const ColliderPiece& piece = set.colliders.pieces[k];
@@ -91,11 +92,11 @@ Result<Cells> cellsOf(const ShapeDescription& shape, const std::filesystem::path
     return Cells{std::move(*mesh), std::move(broken->fragments)};
 }
 
-double densityOf(const BodyDescription& d, const FragmentSet& set) {
+double volumeOf(const FragmentSet& set) {
     double volume = 0;
     for (const Fragment& f : set.fragments)
         volume += f.volume;
-    return massOf(d, volume) / volume;
+    return volume;
 }
 
 PieceShape planePiece() {
@@ -196,6 +197,8 @@ private:
     Result<void> addPlane(const ColliderDescription& d, BodyDefinition body);
     Result<void> addSurface(const ColliderDescription& d, BodyDefinition body);
     void leaveOutEffects();
+    // Of a body whose material is known.
+    double weigh(const BodyDescription& d, double volume) const { return massOf(d, *densityOf(d, scene_.materials), volume); }
     // `surface` is only made where surfaces are asked for.
     template <class MakeSurface>
     Result<void> add(const BodyDefinition& body, MakeSurface&& surface, bool is_plane = false) {
@@ -215,6 +218,8 @@ Result<WorldContents> ContentsMaker::all(const FragmentSet* broken) {
     for (size_t k = 0; k < scene_.bodies.size(); k++) {
         const BodyDescription& body = scene_.bodies[k];
         const std::string name = nameOf(body.name, "body", k);
+        if (const auto density = densityOf(body, scene_.materials); !density)
+            return Error{density.error().code, "body \"" + name + "\": " + density.error().message};
         const bool is_there = k == 0 && broken != nullptr;
         const auto added = is_there ? addBroken(body, name, *broken, {0, 0, 0}) : addDescribed(body, name);
         if (!added) return added.error();
@@ -251,7 +256,7 @@ Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string
     BodyDefinition body = bodyOf(d, name);
     body.pieces = {pieceOf(hull->hull, measures.center)};
     body.place = d.place + turnedBy(d.turn, measures.center);
-    body.mass = massOf(d, measures.volume);
+    body.mass = weigh(d, measures.volume);
     body.inertia = scaled(measures.inertia, body.mass / measures.volume);
     return add(body, [&] { return surfaceOf(hull->hull, measures.center); });
 }
@@ -260,7 +265,7 @@ Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string
 // `center`: of the set, in the body's frame.
 Result<void> ContentsMaker::addBroken(const BodyDescription& d, const std::string& name, const FragmentSet& set,
                                       const Double3& center) {
-    const double density = densityOf(d, set);
+    const double volume = volumeOf(set), density = weigh(d, volume) / volume;
     for (uint32_t k = 0; k < set.fragments.size(); k++) {
         const Fragment& f = set.fragments[k];
         BodyDefinition body = bodyOf(d, name + "/" + std::to_string(k));
@@ -291,7 +296,8 @@ void ContentsMaker::addSiblings(const BodyDescription& d, const FragmentSet& set
 Result<void> ContentsMaker::addCompound(const BodyDescription& d, const std::string& name, const Cells& cells) {
     const FragmentSet& set = cells.fragments;
     const Double3 center = centerOf(set);
-    BodyDefinition body = compoundOf(bodyOf(d, name), set, densityOf(d, set), center);
+    const double volume = volumeOf(set);
+    BodyDefinition body = compoundOf(bodyOf(d, name), set, weigh(d, volume) / volume, center);
     body.place = d.place + turnedBy(d.turn, set.center + center);
     return add(body, [&] { return surfaceOf(cells.model.mesh, center); });
 }
