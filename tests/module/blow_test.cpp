@@ -159,18 +159,18 @@ TEST(SmallContactRadius, IsThatOfSpheresThatAreStopped) {
         const double modulus = sharedModulusOf(70e9 / 0.96, 33e9 / 0.96);
         EXPECT_NEAR(modulus, 1 / (0.96 / 70e9 + 0.96 / 33e9), 1);
         const double expected = std::sqrt(radius * nearestApproach(mass, speed, radius, modulus));
-        EXPECT_NEAR(contactRadiusOf({mass, speed}, radius, modulus) / expected, 1, 1e-5);
+        EXPECT_NEAR(hertzRadiusOf({mass, speed}, radius, modulus) / expected, 1, 1e-5);
     }
-    EXPECT_EQ(contactRadiusOf({1, 0}, 1, 1e9), 0);
+    EXPECT_EQ(hertzRadiusOf({1, 0}, 1, 1e9), 0);
     EXPECT_EQ(sharedModulusOf(5e9, RIGID_MODULUS), 5e9);
 }
 
 TEST(SmallContactRadius, GrowsWithSpeedMassAndSoftness) {
-    const double usual = contactRadiusOf({1, 1}, 0.1, 1e10);
-    EXPECT_GT(contactRadiusOf({1, 2}, 0.1, 1e10), usual);
-    EXPECT_GT(contactRadiusOf({2, 1}, 0.1, 1e10), usual);
-    EXPECT_GT(contactRadiusOf({1, 1}, 0.1, 1e9), usual);
-    EXPECT_GT(contactRadiusOf({1, 1}, 0.2, 1e10), usual);
+    const double usual = hertzRadiusOf({1, 1}, 0.1, 1e10);
+    EXPECT_GT(hertzRadiusOf({1, 2}, 0.1, 1e10), usual);
+    EXPECT_GT(hertzRadiusOf({2, 1}, 0.1, 1e10), usual);
+    EXPECT_GT(hertzRadiusOf({1, 1}, 0.1, 1e9), usual);
+    EXPECT_GT(hertzRadiusOf({1, 1}, 0.2, 1e10), usual);
 }
 
 } // namespace

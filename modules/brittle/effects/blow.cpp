@@ -53,7 +53,7 @@ double sharedModulusOf(double contact_modulus_a, double contact_modulus_b) {
     return contact_modulus_a / (1 + contact_modulus_a / contact_modulus_b);
 }
 
-double contactRadiusOf(const Blow& blow, double curvature_radius, double shared_modulus) {
+double hertzRadiusOf(const Blow& blow, double curvature_radius, double shared_modulus) {
     const double push = blow.mass * blow.speed * blow.speed / (std::sqrt(curvature_radius) * shared_modulus);
     return std::sqrt(curvature_radius * std::pow(HERTZ_APPROACH * push, 0.4));
 }

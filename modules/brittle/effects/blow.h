@@ -53,6 +53,6 @@ double sharedModulusOf(double contact_modulus_a, double contact_modulus_b);
 // m, of the contact when it is largest: sqrt(R d), d = (15 m v^2 / (16 sqrt(R) E))^(2/5) (Hertz 1882; Johnson, Contact
 // Mechanics, 1985, 11.4). `curvature_radius` R: 1 / (1 / R1 + 1 / R2), m, above 0. Right while both are slower than their
 // waves.
-double contactRadiusOf(const Blow& blow, double curvature_radius, double shared_modulus);
+double hertzRadiusOf(const Blow& blow, double curvature_radius, double shared_modulus);
 
 } // namespace brittle
