@@ -46,7 +46,7 @@ std::vector<StackedBox> boxesOf(const brittle::SceneDescription& scene) {
         const brittle::BodyDescription& body = scene.bodies[k];
         const Point& s = body.shape.size;
         boxes[k].place = body.place;
-        boxes[k].mass = brittle::massOf(body, s[0] * s[1] * s[2]);
+        boxes[k].mass = brittle::massOf(body, body.density.value_or(brittle::kUsualDensity), s[0] * s[1] * s[2]);
         for (size_t axis = 0; axis < 3; ++axis)
             boxes[k].moments[axis] = boxes[k].mass / 12 * (reference::dot(s, s) - s[axis] * s[axis]);
         boxes[k].friction = body.surface.friction;

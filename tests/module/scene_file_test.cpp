@@ -135,7 +135,8 @@ TEST(SmallSceneFile, RefusesUnknownNamesWithTheNearestOne) {
               "scene.toml:2: unknown 'plane' in 'shape'; it has to be one of box, ball, hull, mesh");
     EXPECT_EQ(refusalOf("effects = [\"gravity\",\n  \"sleping\"]\n" + kBody),
               "scene.toml:2: unknown 'sleping' in 'effects', did you mean 'sleeping'?");
-    EXPECT_EQ(refusalOf(kBody + "material = \"glas\"\n"), "scene.toml:3: unknown 'glas' in 'material', did you mean 'glass'?");
+    EXPECT_EQ(refusalOf(kBody + "material = \"glas\"\n"),
+              "scene.toml:3: body 0: unknown 'glas' in 'material', did you mean 'glass'?");
     EXPECT_NE(refusalOf("effects = [\"dust\", \"dust\"]\n" + kBody).find("scene.toml:1: 'effects' holds 'dust' twice"),
               std::string::npos);
 }
@@ -245,8 +246,8 @@ TEST(SmallSceneTable, EveryKeyIsWrittenWhereItIsNotUsual) {
         for (const SceneKey& key : section.keys) {
             SCOPED_TRACE(headingOf(section) + " " + std::string(key.name));
             SceneDescription scene;
-            scene.bodies.emplace_back();
-            scene.colliders.emplace_back();
+            for (const SceneSection& each : sceneSections())
+                addOwner(scene, each.id);
             const std::string before = writeScene(scene);
             const ValueRef value = key.locate(ownerOf(scene, section.id, 0));
             ASSERT_TRUE(std::visit(SetOther{key.allowed}, value));

@@ -7,6 +7,7 @@
 #include "modules/brittle/mesh/check.h"
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/scene/body_shape.h"
+#include "modules/brittle/scene/scene_material.h"
 #include "modules/brittle/scene/shape_model.h"
 
 #include <algorithm>
@@ -95,11 +96,11 @@ Result<Cells> cellsOf(const ShapeDescription& shape, const std::filesystem::path
     return Cells{std::move(*mesh), std::move(broken->fragments)};
 }
 
-double densityOf(const BodyDescription& d, const FragmentSet& set) {
+double volumeOf(const FragmentSet& set) {
     double volume = 0;
     for (const Fragment& f : set.fragments)
         volume += f.volume;
-    return massOf(d, volume) / volume;
+    return volume;
 }
 
 PieceShape planePiece() {
@@ -206,6 +207,8 @@ private:
     Result<void> addPlane(const ColliderDescription& d, BodyDefinition body);
     Result<void> addSurface(const ColliderDescription& d, BodyDefinition body);
     void leaveOutEffects();
+    // Of a body whose material is known.
+    double weigh(const BodyDescription& d, double volume) const { return massOf(d, *densityOf(d, scene_.materials), volume); }
     // `surface` is only made where surfaces are asked for.
     template <class MakeSurface>
     Result<void> add(const BodyDefinition& body, MakeSurface&& surface, bool is_plane = false) {
@@ -225,6 +228,8 @@ Result<WorldContents> ContentsMaker::all(const FragmentSet* broken) {
     for (size_t k = 0; k < scene_.bodies.size(); k++) {
         const BodyDescription& body = scene_.bodies[k];
         const std::string name = nameOf(body.name, "body", k);
+        if (const auto density = densityOf(body, scene_.materials); !density)
+            return Error{density.error().code, "body \"" + name + "\": " + density.error().message};
         const bool is_there = k == 0 && broken != nullptr;
         const auto added = is_there ? addBroken(body, name, *broken, {0, 0, 0}) : addDescribed(body, name);
         if (!added) return added.error();
@@ -261,7 +266,7 @@ Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string
     BodyDefinition body = bodyOf(d, name);
     body.pieces = {pieceOf(hull->hull, measures.center)};
     body.place = d.place + turnedBy(d.turn, measures.center);
-    body.mass = massOf(d, measures.volume);
+    body.mass = weigh(d, measures.volume);
     body.inertia = scaled(measures.inertia, body.mass / measures.volume);
     return add(body, [&] { return surfaceOf(hull->hull, measures.center); });
 }
@@ -270,7 +275,7 @@ Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string
 // `center`: of the set, in the body's frame.
 Result<void> ContentsMaker::addBroken(const BodyDescription& d, const std::string& name, const FragmentSet& set,
                                       const Double3& center) {
-    const double density = densityOf(d, set);
+    const double volume = volumeOf(set), density = weigh(d, volume) / volume;
     for (uint32_t k = 0; k < set.fragments.size(); k++) {
         const Fragment& f = set.fragments[k];
         BodyDefinition body = bodyOf(d, name + "/" + std::to_string(k));
@@ -301,7 +306,8 @@ void ContentsMaker::addSiblings(const BodyDescription& d, const FragmentSet& set
 Result<void> ContentsMaker::addCompound(const BodyDescription& d, const std::string& name, const Cells& cells) {
     const FragmentSet& set = cells.fragments;
     const Double3 center = centerOf(set);
-    BodyDefinition body = compoundOf(bodyOf(d, name), set, densityOf(d, set), center);
+    const double volume = volumeOf(set);
+    BodyDefinition body = compoundOf(bodyOf(d, name), set, weigh(d, volume) / volume, center);
     body.place = d.place + turnedBy(d.turn, set.center + center);
     return add(body, [&] { return surfaceOf(cells.model.mesh, center); });
 }

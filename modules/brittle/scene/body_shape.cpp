@@ -47,8 +47,6 @@ engine::Result<PointHull> hullOf(const ShapeDescription& shape, const std::files
     return engine::Error{engine::ErrorCode::BadInput, "no such shape"};
 }
 
-double massOf(const BodyDescription& body, double volume) {
-    return body.mass ? *body.mass : body.density.value_or(kUsualDensity) * volume;
-}
+double massOf(const BodyDescription& body, double density, double volume) { return body.mass.value_or(density * volume); }
 
 } // namespace brittle

@@ -17,7 +17,7 @@ std::vector<Double3> ballPoints(double radius, uint32_t count);
 // shapes that have no hull (meshes, planes).
 engine::Result<PointHull> hullOf(const ShapeDescription& shape, const std::filesystem::path& folder);
 
-// kg: the mass given, or density times volume.
-double massOf(const BodyDescription& body, double volume);
+// kg: the mass given, or density times volume. `density` is what densityOf says (scene/scene_material.h).
+double massOf(const BodyDescription& body, double density, double volume);
 
 } // namespace brittle

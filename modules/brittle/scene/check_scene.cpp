@@ -4,6 +4,7 @@
 #include "modules/brittle/mesh/vector_math.h"
 #include "modules/brittle/scene/body_shape.h"
 #include "modules/brittle/scene/nearest_name.h"
+#include "modules/brittle/scene/scene_material.h"
 
 #include <string>
 #include <unordered_map>
@@ -27,8 +28,8 @@ SceneProblem problemAt(const Place& place, std::string_view key, const std::stri
 }
 
 Place placeOf(SectionId section, size_t index, const std::string& name) {
-    const std::string what = section == SectionId::Body ? "body " : "collider ";
-    return {section, index, what + (name.empty() ? std::to_string(index) : inQuotes(name)) + ": "};
+    return {section, index,
+            std::string(sectionOf(section).name) + " " + (name.empty() ? std::to_string(index) : inQuotes(name)) + ": "};
 }
 
 // ---- what the table says --------------------------------------------------------------------------------------------------
@@ -84,8 +85,8 @@ std::string_view keyOfForm(const ShapeDescription& shape) {
     return shape.kind == ShapeKind::Ball ? "radius" : "points";
 }
 
-Problem checkMass(const Place& place, const BodyDescription& body, double volume) {
-    const double mass = massOf(body, volume);
+Problem checkMass(const Place& place, const BodyDescription& body, double density, double volume) {
+    const double mass = massOf(body, density, volume);
     if (mass >= kLightest && mass <= kHeaviest) return {};
     return problemAt(place,
                      body.mass      ? "mass"
@@ -95,22 +96,24 @@ Problem checkMass(const Place& place, const BodyDescription& body, double volume
                          formatNumber(kHeaviest) + " kg");
 }
 
-// `body` is null for what does not move.
-Problem checkSolid(const Place& place, const ShapeDescription& shape, const BodyDescription* body) {
+// `body` is null for what does not move, and then `density` means nothing.
+Problem checkSolid(const Place& place, const ShapeDescription& shape, const BodyDescription* body, double density) {
     if (!hasHullAtHand(shape)) return {};
     const auto made = hullOf(shape, {});
     if (!made) return problemAt(place, keyOfForm(shape), "is no solid: " + made.error().message);
-    return body != nullptr ? checkMass(place, *body, made->measures.volume) : Problem();
+    return body != nullptr ? checkMass(place, *body, density, made->measures.volume) : Problem();
 }
 
-Problem checkOneBody(BodyDescription& body, size_t index) {
+Problem checkOneBody(BodyDescription& body, size_t index, std::span<const MaterialDescription> materials) {
     const Place place = placeOf(SectionId::Body, index, body.name);
     if (auto problem = checkValues(place, &body)) return problem;
     if (auto problem = checkShapeKeys(place, &body)) return problem;
     if (body.density && body.mass) return problemAt(place, "mass", "has a 'density' and a 'mass'; give one of them");
     if (auto problem = checkSource(place, body.shape)) return problem;
     if (auto problem = checkCells(place, body.shape)) return problem;
-    return checkSolid(place, body.shape, &body);
+    const auto density = densityOf(body, materials);
+    if (!density) return problemAt(place, "material", density.error().message);
+    return checkSolid(place, body.shape, &body, *density);
 }
 
 Problem checkOneCollider(ColliderDescription& collider, size_t index) {
@@ -119,7 +122,20 @@ Problem checkOneCollider(ColliderDescription& collider, size_t index) {
     if (auto problem = checkShapeKeys(place, &collider)) return problem;
     if (collider.shape.cells != CellsDescription()) return problemAt(place, "shape", "what does not move has no cells");
     if (auto problem = checkSource(place, collider.shape)) return problem;
-    return checkSolid(place, collider.shape, nullptr);
+    return checkSolid(place, collider.shape, nullptr, 0);
+}
+
+Problem checkOneMaterial(MaterialDescription& material, size_t index) {
+    const Place place = placeOf(SectionId::Material, index, material.name);
+    if (auto problem = checkValues(place, &material)) return problem;
+    if (material.name.empty()) return problemAt(place, "name", "needs a 'name', which bodies call it by");
+    if (isTakenName(material.name))
+        return problemAt(place, "name", inQuotes(material.name) + " is taken; give it another name");
+    if (material.like.empty())
+        return problemAt(place, "like",
+                         "needs 'like', the built-in material that it is like; it has to be " +
+                             describeAllowed(*findKey(sectionOf(SectionId::Material), "like")));
+    return {};
 }
 
 template <class Items>
@@ -172,24 +188,30 @@ engine::Result<void> asResult(const Problem& problem) {
 
 } // namespace
 
-std::optional<SceneProblem> findProblem(const BodyDescription& body, size_t index) {
+std::optional<SceneProblem> findProblem(const BodyDescription& body, size_t index,
+                                        std::span<const MaterialDescription> materials) {
     BodyDescription copy = body; // the table's references are for writing too
-    return checkOneBody(copy, index);
+    return checkOneBody(copy, index, materials);
 }
 
 std::optional<SceneProblem> findProblem(const SceneDescription& scene) {
     SceneDescription copy = scene;
     if (auto problem = checkSingles(copy)) return problem;
+    if (auto problem = checkNames(SectionId::Material, copy.materials)) return problem;
     if (auto problem = checkNames(SectionId::Body, copy.bodies)) return problem;
     if (auto problem = checkNames(SectionId::Collider, copy.colliders)) return problem;
+    for (size_t k = 0; k < copy.materials.size(); ++k)
+        if (auto problem = checkOneMaterial(copy.materials[k], k)) return problem;
     for (size_t k = 0; k < copy.bodies.size(); ++k)
-        if (auto problem = checkOneBody(copy.bodies[k], k)) return problem;
+        if (auto problem = checkOneBody(copy.bodies[k], k, copy.materials)) return problem;
     for (size_t k = 0; k < copy.colliders.size(); ++k)
         if (auto problem = checkOneCollider(copy.colliders[k], k)) return problem;
     return {};
 }
 
 engine::Result<void> checkScene(const SceneDescription& scene) { return asResult(findProblem(scene)); }
-engine::Result<void> checkBody(const BodyDescription& body, size_t index) { return asResult(findProblem(body, index)); }
+engine::Result<void> checkBody(const BodyDescription& body, size_t index, std::span<const MaterialDescription> materials) {
+    return asResult(findProblem(body, index, materials));
+}
 
 } // namespace brittle

@@ -21,11 +21,13 @@ struct SceneProblem {
 // files are not opened.
 std::optional<SceneProblem> findProblem(const SceneDescription& scene);
 
-// The same of one body, as a program adds it to a world. `index` is what a body without a name is called by.
-std::optional<SceneProblem> findProblem(const BodyDescription& body, size_t index);
+// The same of one body, as a program adds it to a world. `index` is what a body without a name is called by; `materials` are
+// those that it may be of besides the built-in ones.
+std::optional<SceneProblem> findProblem(const BodyDescription& body, size_t index,
+                                        std::span<const MaterialDescription> materials = {});
 
 // Errors: BadInput, the first problem's message.
 engine::Result<void> checkScene(const SceneDescription& scene);
-engine::Result<void> checkBody(const BodyDescription& body, size_t index);
+engine::Result<void> checkBody(const BodyDescription& body, size_t index, std::span<const MaterialDescription> materials = {});
 
 } // namespace brittle

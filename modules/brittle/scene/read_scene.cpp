@@ -46,7 +46,7 @@ public:
     }
     void operator()(std::string* x) const {
         *x = text(node_);
-        if (!key_.allowed.names.empty() && !x->empty()) known(*x, node_);
+        if (!key_.allowed.names.empty() && !key_.allowed.has_own_names && !x->empty()) known(*x, node_);
     }
     void operator()(const ChoiceRef& x) const { *x.number = known(text(node_), node_); }
     void operator()(Double3* x) const { *x = numbers<3>(node_); }
@@ -175,10 +175,11 @@ void SceneReader::readTable(const SceneSection& section, size_t index, const tom
 
 // Keys of other shapes, also where they say what would be so anyway.
 void SceneReader::refuseForeign(const SceneSection& section, size_t index, const toml::table& table) {
-    const ShapeDescription& shape = *shapeOf(ownerOf(scene_, section.id, index), section.id);
-    const std::string_view shape_name = shapeNames()[static_cast<size_t>(shape.kind)];
+    const ShapeDescription* shape = shapeOf(ownerOf(scene_, section.id, index), section.id);
+    if (shape == nullptr) return;
+    const std::string_view shape_name = shapeNames()[static_cast<size_t>(shape->kind)];
     for (const auto& [name, node] : table)
-        if (const SceneKey* key = findKey(section, name.str()); (key->shapes & bitOf(shape.kind)) == 0)
+        if (const SceneKey* key = findKey(section, name.str()); (key->shapes & bitOf(shape->kind)) == 0)
             throw Refusal{name.source().begin.line,
                           inQuotes(key->name) + " means nothing to a " + std::string(shape_name) + "; leave it out"};
 }
@@ -196,10 +197,7 @@ void SceneReader::readSection(const SceneSection& section, const toml::node& nod
     for (const toml::node& entry : *node.as_array()) {
         if (!entry.is_table()) misplaced(entry);
         const size_t index = countOf(scene_, section.id);
-        if (section.id == SectionId::Body)
-            scene_.bodies.emplace_back();
-        else
-            scene_.colliders.emplace_back();
+        addOwner(scene_, section.id);
         readTable(section, index, *entry.as_table());
     }
 }

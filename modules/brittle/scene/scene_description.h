@@ -61,13 +61,29 @@ struct BodyDescription {
     Quaternion turn = {0, 0, 0, 1};
     Double3 velocity = {0, 0, 0};
     Double3 spin = {0, 0, 0};
-    std::optional<double> density; // at most one of these two; none: kUsualDensity
+    std::optional<double> density; // at most one of these two; none: the material's, without one kUsualDensity
     std::optional<double> mass;
     SurfaceDescription surface;
     std::string material;
     bool operator==(const BodyDescription&) const = default;
 };
 constexpr double kUsualDensity = 1000; // kg/m3
+
+// A material of the scene's own: like a built-in one (effects/material.h) but for what is said.
+struct MaterialDescription {
+    std::string name;
+    std::string like;
+    std::optional<double> density;
+    std::optional<double> youngs_modulus;
+    std::optional<double> poisson_ratio;
+    std::optional<double> fracture_energy;
+    std::optional<double> tensile_strength;
+    std::optional<double> weibull_modulus;
+    std::optional<double> reference_volume;
+    std::optional<double> eta;
+    std::optional<double> smallest_cell;
+    bool operator==(const MaterialDescription&) const = default;
+};
 
 // Does not move. A plane bounds all that lies below it: its frame's y axis is the way out.
 struct ColliderDescription {
@@ -124,6 +140,7 @@ struct SceneDescription {
     StepDescription step;
     BudgetDescription budgets;
     CameraDescription camera;
+    std::vector<MaterialDescription> materials;
     std::vector<BodyDescription> bodies;
     std::vector<ColliderDescription> colliders;
     bool operator==(const SceneDescription&) const = default;

@@ -50,7 +50,7 @@ constexpr std::string_view kBodyShapes[] = {"box", "ball", "hull", "mesh"};
 constexpr std::string_view kPatterns[] = {"uniform", "impact", "paper"};
 constexpr std::string_view kSolvers[] = {"soft", "hard"};
 constexpr std::string_view kAxes[] = {"all", "fixed"};
-constexpr std::string_view kMaterials[] = {"glass", "tempered_glass", "porcelain", "concrete", "brick", "ice", "stone"};
+constexpr std::string_view kMaterials[] = {"glass", "porcelain", "concrete", "brick", "ice", "stone"};
 constexpr std::string_view kEffects[] = {"gravity",         "contacts",   "friction", "restitution",     "ccd",    "sleeping",
                                          "impact_fracture", "refracture", "dust",     "debris_lifetime", "events", "drag"};
 constexpr uint32_t kDirections[] = {6, 14, 26, 62};
@@ -61,6 +61,7 @@ constexpr double kEndOfWorld = 1e6, kFastest = 1e4, kLargest = 1e5, kMostElement
 constexpr Allowed from(double lower, double upper) { return {.lower = lower, .upper = upper}; }
 constexpr Allowed above(double lower, double upper) { return {.lower = lower, .upper = upper, .above_lower = true}; }
 constexpr Allowed oneOf(std::span<const std::string_view> names) { return {.names = names}; }
+constexpr Allowed oneOfOrOwn(std::span<const std::string_view> names) { return {.names = names, .has_own_names = true}; }
 
 constexpr ShapeBits kBox = bitOf(ShapeKind::Box), kBall = bitOf(ShapeKind::Ball), kHull = bitOf(ShapeKind::Hull),
                     kMesh = bitOf(ShapeKind::Mesh);
@@ -106,6 +107,27 @@ constexpr SceneKey kCameraKeys[] = {
     {"field_of_view", at<&CameraDescription::field_of_view>, from(1, 170), "degrees", "from the top to the bottom"},
     {"width", at<&CameraDescription::width>, from(16, 8192), "pixels", "of pictures"},
     {"height", at<&CameraDescription::height>, from(16, 8192), "pixels", "of pictures"},
+};
+
+constexpr double kLightestMatter = 1e-3, kHardest = 1e13;
+
+constexpr SceneKey kMaterialKeys[] = {
+    {"name", at<&MaterialDescription::name>, kAnything, "", "what bodies call it; none of the built-in names"},
+    {"like", at<&MaterialDescription::like>, oneOf(kMaterials), "", "has the values that are not given here"},
+    {"density", at<&MaterialDescription::density>, from(kLightestMatter, 1e6), "kg/m3",
+     "of bodies that have none of their own"},
+    {"youngs_modulus", at<&MaterialDescription::youngs_modulus>, from(1, kHardest), "Pa", "how stiff it is"},
+    {"poisson_ratio", at<&MaterialDescription::poisson_ratio>, from(0, 0.499), "", "how much it gives way sideways"},
+    {"fracture_energy", at<&MaterialDescription::fracture_energy>, from(1e-6, 1e9), "J/m2",
+     "that a crack costs; the less, the more fragments"},
+    {"tensile_strength", at<&MaterialDescription::tensile_strength>, from(1, kHardest), "Pa",
+     "that 37 of 100 bodies of the reference volume have"},
+    {"weibull_modulus", at<&MaterialDescription::weibull_modulus>, from(1, 1000), "", "how alike bodies are in strength"},
+    {"reference_volume", at<&MaterialDescription::reference_volume>, from(1e-12, 1e6), "m3",
+     "that the strength belongs to; larger bodies are weaker"},
+    {"eta", at<&MaterialDescription::eta>, from(0, 1), "",
+     "share of a blow's energy that goes into cracks: the dial for how many fragments there are; 0: none breaks"},
+    {"smallest_cell", at<&MaterialDescription::smallest_cell>, from(0, 1e3), "m", "smaller fragments are not made"},
 };
 
 template <class Owner, auto Member>
@@ -164,25 +186,29 @@ constexpr auto kBodyKeys = joined(
     std::to_array<SceneKey>({
         {"velocity", at<&BodyDescription::velocity>, from(-kFastest, kFastest), "m/s", "of the center of mass"},
         {"spin", at<&BodyDescription::spin>, from(-kFastest, kFastest), "rad/s", "angular velocity"},
-        {"density", at<&BodyDescription::density>, above(0, 1e6), "kg/m3", "1000 where neither it nor mass is given"},
+        {"density", at<&BodyDescription::density>, above(0, 1e6), "kg/m3",
+         "the material's, or 1000, if it and mass are left out"},
         {"mass", at<&BodyDescription::mass>, above(0, 1e13), "kg", "instead of density"},
-        {"material", at<&BodyDescription::material>, oneOf(kMaterials), "", "that it breaks as; without one it does not break"},
+        {"material", at<&BodyDescription::material>, oneOfOrOwn(kMaterials), "", "that it breaks as; without one it does not"},
     }),
     kCellKeys);
 
-constexpr auto kColliderKeys = joined(std::to_array<SceneKey>({
-                                          {"name", at<&ColliderDescription::name>, kAnything, "", "for messages"},
-                                          {"shape", kInShape<ColliderDescription, &ShapeDescription::kind>, oneOf(kShapes), "",
-                                           "a plane is endless and bounds what is up to 10 m below it, where its frame's y axis "
-                                           "is up; a mesh is taken as the triangles it is"},
-                                      }),
-                                      kPlacedKeys<ColliderDescription>);
+constexpr auto kColliderKeys =
+    joined(std::to_array<SceneKey>({
+               {"name", at<&ColliderDescription::name>, kAnything, "", "for messages"},
+               {"shape", kInShape<ColliderDescription, &ShapeDescription::kind>, oneOf(kShapes), "",
+                "a plane is endless and bounds what is up to 10 m below it, where its frame's y axis "
+                "is up; a mesh is taken as the triangles it is"},
+           }),
+           kPlacedKeys<ColliderDescription>);
 
 constexpr SceneSection kSections[] = {
     {SectionId::Scene, "", false, kSceneKeys, "At the top of the file."},
     {SectionId::Step, "step", false, kStepKeys, "How time goes on and contacts are solved."},
     {SectionId::Budgets, "budgets", false, kBudgetKeys, "Room on the device. What does not fit is reported, never dropped."},
     {SectionId::Camera, "camera", false, kCameraKeys, "For pictures and films."},
+    {SectionId::Material, "material", true, kMaterialKeys,
+     "Materials of the scene's own, each like a built-in one but for what is given; as many as are wanted."},
     {SectionId::Body, "body", true, kBodyKeys, "What moves; as many as are wanted."},
     {SectionId::Collider, "collider", true, kColliderKeys, "What does not move; as many as are wanted."},
 };
@@ -213,6 +239,7 @@ void* ownerOf(SceneDescription& scene, SectionId id, size_t index) {
     case SectionId::Step: return &scene.step;
     case SectionId::Budgets: return &scene.budgets;
     case SectionId::Camera: return &scene.camera;
+    case SectionId::Material: return &scene.materials[index];
     case SectionId::Body: return &scene.bodies[index];
     case SectionId::Collider: return &scene.colliders[index];
     }
@@ -220,8 +247,15 @@ void* ownerOf(SceneDescription& scene, SectionId id, size_t index) {
 }
 
 size_t countOf(const SceneDescription& scene, SectionId id) {
+    if (id == SectionId::Material) return scene.materials.size();
     if (id == SectionId::Body) return scene.bodies.size();
     return id == SectionId::Collider ? scene.colliders.size() : 1;
+}
+
+void addOwner(SceneDescription& scene, SectionId id) {
+    if (id == SectionId::Material) scene.materials.emplace_back();
+    if (id == SectionId::Body) scene.bodies.emplace_back();
+    if (id == SectionId::Collider) scene.colliders.emplace_back();
 }
 
 const ShapeDescription* shapeOf(const void* owner, SectionId id) {
@@ -232,8 +266,8 @@ const ShapeDescription* shapeOf(const void* owner, SectionId id) {
 ValueRef defaultOf(const SceneSection& section, const SceneKey& key) {
     static SceneDescription usual = [] {
         SceneDescription scene;
-        scene.bodies.emplace_back();
-        scene.colliders.emplace_back();
+        for (const SceneSection& each : kSections)
+            addOwner(scene, each.id);
         return scene;
     }();
     return key.locate(ownerOf(usual, section.id, 0));

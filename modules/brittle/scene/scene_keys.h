@@ -25,6 +25,7 @@ struct Allowed {
     bool above_lower = false;                // the lower bound itself is not allowed
     std::span<const std::string_view> names; // of choices, of texts that are names, of lists of names
     std::span<const uint32_t> numbers;       // instead of a range
+    bool has_own_names = false;              // the scene may add to the names; whether it does is checked with the whole scene
 };
 
 // Which shapes a key of a shape is for; bits by ShapeKind.
@@ -41,7 +42,7 @@ struct SceneKey {
     ShapeBits shapes = kEveryShape;
 };
 
-enum class SectionId : uint8_t { Scene, Step, Budgets, Camera, Body, Collider };
+enum class SectionId : uint8_t { Scene, Step, Budgets, Camera, Material, Body, Collider };
 
 struct SceneSection {
     SectionId id = SectionId::Scene;
@@ -59,6 +60,7 @@ std::string headingOf(const SceneSection& section);                          // 
 // The part of the scene that a section's keys are about; `index` counts those of a repeated section.
 void* ownerOf(SceneDescription& scene, SectionId id, size_t index);
 size_t countOf(const SceneDescription& scene, SectionId id);
+void addOwner(SceneDescription& scene, SectionId id); // one more, at the end, of a repeated section
 // The shape that an owner has, nullptr where it has none.
 const ShapeDescription* shapeOf(const void* owner, SectionId id);
 // As the section's owner is when nothing was said about it.
@@ -66,7 +68,7 @@ ValueRef defaultOf(const SceneSection& section, const SceneKey& key);
 
 std::span<const std::string_view> shapeNames(); // by ShapeKind
 std::span<const std::string_view> effectNames();
-std::span<const std::string_view> materialNames();
+std::span<const std::string_view> materialNames(); // the built-in ones
 
 // "a number from 0 to 1", "three numbers, each above 0 and at most 1e+06 (m)", "one of box, ball".
 std::string describeAllowed(const SceneKey& key);

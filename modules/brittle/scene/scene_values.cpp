@@ -43,6 +43,11 @@ std::string describeWhole(const Allowed& allowed) {
     return text;
 }
 
+std::string describeText(const Allowed& allowed) {
+    if (allowed.names.empty()) return "a text";
+    return "one of " + listOf(allowed.names) + (allowed.has_own_names ? ", or a name of the scene's own" : "");
+}
+
 std::string describeKind(const ValueRef& value, const Allowed& allowed) {
     return std::visit(
         Visitor{
@@ -51,7 +56,7 @@ std::string describeKind(const ValueRef& value, const Allowed& allowed) {
             [&](const uint32_t*) { return describeWhole(allowed); },
             [&](const uint64_t*) { return describeWhole(allowed); },
             [](const bool*) { return std::string("true or false"); },
-            [&](const std::string*) { return allowed.names.empty() ? "a text" : "one of " + listOf(allowed.names); },
+            [&](const std::string*) { return describeText(allowed); },
             [&](const ChoiceRef&) { return "one of " + listOf(allowed.names); },
             [&](const Double3*) { return "three numbers" + eachInRange(allowed); },
             [](const Quaternion*) { return std::string("four numbers that are not all 0, or an axis and degrees"); },
@@ -103,7 +108,8 @@ bool isNamed(const std::string& name, const Allowed& allowed) {
 }
 
 std::string faultOfText(const std::string& text, const Allowed& allowed) {
-    return allowed.names.empty() || text.empty() || isNamed(text, allowed) ? "" : "is '" + text + "'";
+    if (allowed.names.empty() || allowed.has_own_names || text.empty() || isNamed(text, allowed)) return "";
+    return "is '" + text + "'";
 }
 
 std::string faultOfNames(const std::vector<std::string>& list, const Allowed& allowed) {
