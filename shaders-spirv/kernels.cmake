@@ -140,6 +140,13 @@ kernel(narrow_phase/find_axes.comp NAME find_axes_wide DEFINES LANES=32u)
 kernel(narrow_phase/find_fixed_axes.comp)
 kernel(narrow_phase/build_manifolds.comp)
 
+# What breaks, made ready.
+foreach(name IN ITEMS gather_corners flag_firsts flag_solid write_vertices write_triangles write_edges)
+    kernel(breaking/${name}.comp)
+endforeach()
+kernel(primitives/weld_points.comp NAME weld_corners DEFINES WORDS=4 STRIDE=4)
+kernel(primitives/weld_points.comp NAME weld_sides DEFINES WORDS=2 STRIDE=2)
+
 # Dynamics.
 foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
         order_adjacency order_islands prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)

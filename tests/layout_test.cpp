@@ -3,6 +3,7 @@
 // A struct of a kernel that has the name of a row below must have its members, in order, at its offsets; a struct that is
 // in an array must have the C++ size as its stride. A row that no kernel uses fails.
 #include "engine/reflection.h"
+#include "shaders-spirv/shared/breaking.h"
 #include "shaders-spirv/shared/body.h"
 #include "shaders-spirv/shared/collider.h"
 #include "shaders-spirv/shared/contact.h"
@@ -63,6 +64,7 @@ const std::vector<Row>& rows() {
           {"high", offsetof(brittle::FragmentRecord, high)},
           {"fate", offsetof(brittle::FragmentRecord, fate)},
           {"range", offsetof(brittle::FragmentRecord, range)}}},
+        {"BreakingRecord", sizeof(gpu::BreakingRecord), {MEMBER(BreakingRecord, center), MEMBER(BreakingRecord, range)}},
         {"HullRecord",
          sizeof(gpu::HullRecord),
          {MEMBER(HullRecord, first), MEMBER(HullRecord, count), MEMBER(HullRecord, center)}},

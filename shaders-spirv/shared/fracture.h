@@ -70,7 +70,16 @@
 #define COUNT_COLLIDER_FACES 43
 #define COUNT_COLLIDER_VERTICES 44
 #define COUNT_COLLIDER_CORNERS 45
-#define COUNT_TOTAL 46
+#define COUNT_BREAKING 46         /* objects that break together, where the device finds out */
+#define COUNT_SOUP_TRIANGLES 47   /* of their surfaces as they are drawn */
+#define COUNT_SOUP_CORNERS 48
+#define COUNT_MESH_VERTICES 49    /* of what is to be broken: corners of one place are one vertex */
+#define COUNT_OWN_TRIANGLES 50
+#define COUNT_EARLIER_TRIANGLES 51 /* of faces of earlier cuts */
+#define COUNT_MESH_TRIANGLES 52
+#define COUNT_MESH_CORNERS 53
+#define COUNT_MESH_EDGES 54
+#define COUNT_TOTAL 55
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL

@@ -1,0 +1,39 @@
+// The first thing that becomes of objects that break: from their surfaces, as they are drawn, to the mesh that fracture takes,
+// all on the device. Which objects, and so how many corners there are, the host does not know.
+#pragma once
+
+#include "engine/arena.h"
+#include "modules/brittle/fracture/recorder.h"
+#include "shaders-spirv/shared/breaking.h"
+
+namespace brittle {
+
+// The most that may break at once.
+struct GatherRoom {
+    uint32_t objects = 0;
+    uint32_t triangles = 0;
+    uint32_t corners() const { return 3 * triangles; }
+    // Of a closed surface: half as many as triangles, and a few more where surfaces touch themselves.
+    uint32_t vertices = 0;
+    uint32_t edges = 0;
+};
+
+// A closed surface of so many triangles has about half as many vertices, and half as many edges again as triangles; where it
+// has been rounded until it touches itself there may be more vertices.
+GatherRoom roomFor(uint32_t objects, uint32_t triangles);
+
+// Scratch memory, and the mesh: triangles of surfaces first, then those of faces of earlier cuts.
+struct GatherBuffers {
+    engine::BufferView corners, table, slots, firsts, flags, vertex_numbers, triangle_flags, triangle_numbers, sides,
+        edge_numbers, sums;
+    engine::BufferView mesh_positions, grid_vertices, mesh_triangles, corner_attributes, triangle_edges, mesh_edges;
+};
+GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room);
+
+// Wants COUNT_BREAKING, COUNT_SOUP_TRIANGLES and COUNT_SOUP_CORNERS published; publishes COUNT_MESH_VERTICES,
+// COUNT_OWN_TRIANGLES, COUNT_EARLIER_TRIANGLES, COUNT_MESH_TRIANGLES, COUNT_MESH_CORNERS and COUNT_MESH_EDGES. `breaking`:
+// BreakingRecords in order; `vertices`: SceneVertex. What does not fit fails the event, as everywhere.
+void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers& b, engine::BufferView breaking,
+                  engine::BufferView vertices);
+
+} // namespace brittle
