@@ -5,9 +5,12 @@
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/upload.h"
+#include "shaders-spirv/shared/effects.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace brittle {
@@ -33,8 +36,25 @@ Result<void> checkSettings(const StepSettings& s) {
         return refuse("a push-out or bounce threshold that is negative or no number");
     if (!(s.sleep_speed >= 0 && s.sleep_after >= 0))
         return refuse("sleep below a speed or after a time that is negative or no number");
+    if (!(s.air_density >= 0 && s.air_density <= 1e4) || !(s.drag_coefficient >= 0 && s.drag_coefficient <= 100))
+        return refuse("a density of the air or a drag coefficient that is out of range; give 0 to 1e4 kg/m3, 0 to 100");
     if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
     return {};
+}
+
+// The bits of what a kernel multiplies by (lib/air_drag.glsl).
+uint32_t dragWord(const StepSettings& s) {
+    return std::bit_cast<uint32_t>(static_cast<float>(0.5 * s.air_density * s.drag_coefficient * std::numbers::pi));
+}
+
+// What all kernels of a world agree on.
+std::vector<engine::SpecConstant> constantsOf(const StepSettings& settings, EffectSet effects, uint32_t group_size) {
+    const auto on = [&](Effect effect) { return effects.has(effect) ? 1u : 0u; };
+    return {{FLAT_SIZE_ID, group_size},
+            {CONTACTS_ID, on(Effect::Contacts)},
+            {FRICTION_ID, on(Effect::Friction)},
+            {CCD_ID, on(Effect::Ccd)},
+            {DRAG_ID, effects.has(Effect::Drag) ? dragWord(settings) : 0}};
 }
 
 uint64_t hashOf(std::span<const std::byte> bytes) {
@@ -48,8 +68,9 @@ class DeviceWorld : public World {
 public:
     DeviceWorld(engine::Device& device, BodyOrder order, WorldContents contents, WorldBuffers buffers,
                 const StepSettings& settings, const WorldBudget& budget)
-        : device_(device), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, budget.group_size}}), order_(std::move(order)),
-          contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings), budget_(budget) {}
+        : device_(device), kernels_(device, shaders::all(), constantsOf(settings, buffers.sizes.effects, budget.group_size)),
+          order_(std::move(order)), contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings),
+          budget_(budget) {}
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
@@ -92,16 +113,15 @@ public:
 
     Result<WorldCounts> counts() override {
         std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLOR_WORDS);
-        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()},
-                                {b_.args, args.data(), 4 * args.size()},
-                                {b_.step.color_start, colors.data(), 4 * colors.size()}};
+        std::vector<Fetch> wanted = {{b_.counts, words.data(), 4 * words.size()}, {b_.args, args.data(), 4 * args.size()}};
+        if (has(Effect::Contacts)) wanted.push_back({b_.step.color_start, colors.data(), 4 * colors.size()});
         if (auto read = fetch(device_, wanted); !read) return read.error();
         WorldCounts c = {b_.sizes.bodies, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS],
                          words[COUNT_FRESH_PAIRS]};
         for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_SOLVED_APART; k++)
             c.groups += args[9 * k] * args[9 * k + 1];
         c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
-        c.awake = settings_.sleeping ? words[COUNT_AWAKE] : b_.movers;
+        c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers;
         c.colorless = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_LACKED];
         return c;
     }
@@ -111,8 +131,7 @@ public:
         if (!counted) return counted.error();
         std::vector<std::array<uint32_t, 2>> pairs(counted->pairs);
         if (pairs.empty()) return pairs;
-        const Fetch wanted[] = {
-            {BufferView(b_.memory[(made_ + 1) & 1].pairs).sub(0, 8 * pairs.size()), pairs.data(), 8 * pairs.size()}};
+        const Fetch wanted[] = {{b_.memory[(made_ + 1) & 1].pairs.sub(0, 8 * pairs.size()), pairs.data(), 8 * pairs.size()}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         for (auto& pair : pairs) {
             const uint32_t a = order_.piece_at[pair[0]], b = order_.piece_at[pair[1]];
@@ -164,8 +183,8 @@ public:
 private:
     Result<void> recordStep(Recorder& record, uint32_t parity) {
         const Step step = {settings_, b_,     b_.memory[1 - parity], b_.memory[parity],
-                           kernels_,  record, hasManyLanes(device_), settings_.contacts && bounce()};
-        record.clear({BufferView(b_.counts).sub(0, 4 * STATUS_FAILED)});
+                           kernels_,  record, hasManyLanes(device_), has(Effect::Restitution) && bounce()};
+        record.clear({b_.counts.sub(0, 4 * STATUS_FAILED)});
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
         recordIslands(step);
@@ -200,7 +219,7 @@ private:
         if (!saved) return saved.error();
         const std::vector<BufferView> was = stateViews();
         const uint32_t room = std::min(needed + needed / 2, mostPairs(device_));
-        auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, settings_.sleeping);
+        auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, b_.sizes.effects);
         if (!larger) return larger.error();
         std::swap(b_, *larger);
         Upload upload;
@@ -216,7 +235,7 @@ private:
     Result<std::vector<uint32_t>> takeStock() {
         std::vector<uint32_t> words(STATUS_WORDS);
         uint32_t steps = 0;
-        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {BufferView(b_.steps).sub(0, 4), &steps, 4}};
+        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {b_.steps.sub(0, 4), &steps, 4}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         made_ = steps;
         return words;
@@ -226,7 +245,7 @@ private:
     Result<void> forget(uint32_t body) {
         engine::Commands commands(device_);
         if (auto begun = commands.begin(); !begun) return begun;
-        commands.fill(engine::BufferView(b_.counts).sub(4 * STATUS_STOPPED_BODY, 4), 0);
+        commands.fill(b_.counts.sub(4 * STATUS_STOPPED_BODY, 4), 0);
         if (auto done = commands.submitAndWait(); !done) return done;
         return Error{ErrorCode::BadInput, "by step " + std::to_string(made_) + " the motion of body " +
                                               std::to_string(order_.body_at[body]) +
@@ -252,11 +271,13 @@ private:
 
     std::vector<BufferView> stateViews() const {
         std::vector<BufferView> views = {b_.bodies, b_.steps};
+        if (!has(Effect::Contacts)) return views;
         for (const PairMemory& memory : b_.memory)
-            for (const engine::Buffer* buffer : {&memory.count, &memory.pairs, &memory.contacts})
-                views.push_back(*buffer);
+            for (const BufferView& view : {memory.count, memory.pairs, memory.contacts})
+                views.push_back(view);
         return views;
     }
+    bool has(Effect effect) const { return b_.sizes.effects.has(effect); }
     size_t stateBytes() const {
         size_t bytes = 0;
         for (const BufferView& view : stateViews())
@@ -278,6 +299,21 @@ private:
 
 } // namespace
 
+EffectSet effectsOf(const StepSettings& s) {
+    EffectSet set;
+    const auto addIf = [&](bool asked_for, Effect effect) {
+        if (asked_for) set.add(effect);
+    };
+    addIf(s.gravity != Double3{0, 0, 0}, Effect::Gravity);
+    addIf(s.contacts, Effect::Contacts);
+    addIf(s.contacts && s.friction, Effect::Friction);
+    addIf(s.contacts && s.restitution, Effect::Restitution);
+    addIf(s.contacts && s.ccd, Effect::Ccd);
+    addIf(s.contacts && s.sleeping, Effect::Sleeping);
+    addIf(s.drag, Effect::Drag);
+    return set;
+}
+
 Result<std::unique_ptr<World>> World::create(engine::Device& device, const WorldContents& contents,
                                              const StepSettings& settings, const WorldBudget& budget) {
     if (auto sound = checkSettings(settings); !sound) return sound.error();
@@ -289,7 +325,7 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     BodyOrder order = orderById(contents);
     WorldContents sorted = inOrder(contents, order);
     const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
-    auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, settings.sleeping);
+    auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, effectsOf(settings));
     if (!buffers) return buffers.error();
     WorldBudget given = budget;
     given.group_size = group_size;

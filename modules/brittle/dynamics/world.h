@@ -7,6 +7,7 @@
 #include "engine/commands.h"
 #include "engine/device.h"
 #include "modules/brittle/dynamics/world_contents.h"
+#include "modules/brittle/effects/effect_set.h"
 
 #include <array>
 #include <cstdint>
@@ -28,12 +29,21 @@ struct StepSettings {
     double margin = 0.02;        // m: points that are still so far apart are contacts already
     double bounce_threshold = 1; // m/s: what comes in slower does not bounce
     uint32_t fixed_axes = 0;     // of the narrow phase; 0: all axes of both hulls
-    bool sleeping = false;       // islands that have come to rest are not solved
-    double sleep_speed = 0.05;   // m/s: what moves and turns less in a step, rests; for a body of less than half a meter, a
-                                 // tenth of its radius a second
-    double sleep_after = 0.5;    // s of rest
-    bool recycling = true;       // points are kept while bodies hardly move against each other
+    bool friction = true;        // these four act where contacts are
+    bool restitution = true;
+    bool ccd = true;            // bodies that are fast for their size are held back where they would go too deep
+    bool sleeping = false;      // islands that have come to rest are not solved
+    double sleep_speed = 0.05;  // m/s: what moves and turns less in a step, rests; for a body of less than half a meter, a
+                                // tenth of its radius a second
+    double sleep_after = 0.5;   // s of rest
+    bool recycling = true;      // points are kept while bodies hardly move against each other
+    bool drag = false;          // air slows bodies as it would the balls around them (lib/air_drag.glsl)
+    double air_density = 1.225; // kg/m3
+    double drag_coefficient = 0.47;
 };
+
+// What a world of these settings has: buffers, passes and the code of kernels follow from it.
+EffectSet effectsOf(const StepSettings& settings);
 
 // How much there is room for; what is 0 is chosen by the contents, and grows when it is too small.
 struct WorldBudget {
