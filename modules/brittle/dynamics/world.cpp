@@ -5,12 +5,8 @@
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/upload.h"
-#include "shaders-spirv/shared/effects.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <numbers>
 #include <string>
 
 namespace brittle {
@@ -23,40 +19,6 @@ using engine::Result;
 
 constexpr uint32_t kPairsPerPiece = 9, kLeastPairs = 1024; // as piles have them; there is more room made where it is needed
 
-Result<void> checkSettings(const StepSettings& s) {
-    const auto refuse = [](const std::string& why) { return Error{ErrorCode::BadInput, "world: " + why}; };
-    for (const double g : s.gravity)
-        if (!(std::fabs(g) <= 1e4)) return refuse("gravity is no number or beyond 1e4 m/s2");
-    if (!(s.dt >= 1e-6 && s.dt <= 1)) return refuse("a step takes " + std::to_string(s.dt) + " s; give it 1e-6 to 1");
-    if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
-    if (s.iterations < 1 || s.iterations > 64) return refuse(std::to_string(s.iterations) + " iterations; give 1 to 64");
-    if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
-        return refuse("contacts of that frequency or damping; give 0 to 1e4");
-    if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
-        return refuse("a push-out or bounce threshold that is negative or no number");
-    if (!(s.sleep_speed >= 0 && s.sleep_after >= 0))
-        return refuse("sleep below a speed or after a time that is negative or no number");
-    if (!(s.air_density >= 0 && s.air_density <= 1e4) || !(s.drag_coefficient >= 0 && s.drag_coefficient <= 100))
-        return refuse("a density of the air or a drag coefficient that is out of range; give 0 to 1e4 kg/m3, 0 to 100");
-    if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
-    return {};
-}
-
-// The bits of what a kernel multiplies by (lib/air_drag.glsl).
-uint32_t dragWord(const StepSettings& s) {
-    return std::bit_cast<uint32_t>(static_cast<float>(0.5 * s.air_density * s.drag_coefficient * std::numbers::pi));
-}
-
-// What all kernels of a world agree on.
-std::vector<engine::SpecConstant> constantsOf(const StepSettings& settings, EffectSet effects, uint32_t group_size) {
-    const auto on = [&](Effect effect) { return effects.has(effect) ? 1u : 0u; };
-    return {{FLAT_SIZE_ID, group_size},
-            {CONTACTS_ID, on(Effect::Contacts)},
-            {FRICTION_ID, on(Effect::Friction)},
-            {CCD_ID, on(Effect::Ccd)},
-            {DRAG_ID, effects.has(Effect::Drag) ? dragWord(settings) : 0}};
-}
-
 uint64_t hashOf(std::span<const std::byte> bytes) {
     uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
     for (const std::byte b : bytes)
@@ -68,16 +30,18 @@ class DeviceWorld : public World {
 public:
     DeviceWorld(engine::Device& device, BodyOrder order, WorldContents contents, WorldBuffers buffers,
                 const StepSettings& settings, const WorldBudget& budget)
-        : device_(device), kernels_(device, shaders::all(), constantsOf(settings, buffers.sizes.effects, budget.group_size)),
+        : device_(device), kernels_(device, shaders::all(), kernelConstants(settings, budget.group_size)),
           order_(std::move(order)), contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings),
           budget_(budget) {}
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
+        submitted_[0] = submitted_[1] = false;
         for (uint32_t parity = 0; parity < 2; parity++) {
             commands_[parity] = std::make_unique<engine::Commands>(device_);
             engine::Commands& commands = *commands_[parity];
             if (auto begun = commands.begin(engine::Commands::Reuse::Many); !begun) return begun;
+            if (times_passes_) commands.timeKernels();
             Recorder recorder(commands, kernels_, b_.counts, b_.args);
             if (auto recorded = recordStep(recorder, parity); !recorded) return recorded;
             if (auto recorded = recorder.status(); !recorded) return recorded;
@@ -142,6 +106,26 @@ public:
     }
 
     Result<std::vector<engine::Timing>> timings() override { return commands_[(made_ + 1) & 1]->timings(); }
+    // Of the first step; the second is the same with the two memories of contacts exchanged. Recorded and not submitted.
+    Result<StepPlan> plan() override {
+        engine::Commands commands(device_);
+        if (auto begun = commands.begin(); !begun) return begun.error();
+        commands.keepTrace();
+        Recorder recorder(commands, kernels_, b_.counts, b_.args);
+        if (auto recorded = recordStep(recorder, 0); !recorded) return recorded.error();
+        if (auto recorded = recorder.status(); !recorded) return recorded.error();
+        return planOf(commands.trace(), b_, kernels_.kernelNames());
+    }
+
+    Result<std::vector<double>> measure(uint32_t steps) override {
+        times_passes_ = true;
+        auto recorded = record();
+        auto medians = recorded ? mediansOf(steps) : Result<std::vector<double>>(recorded.error());
+        times_passes_ = false;
+        if (recorded = record(); !recorded) return recorded.error();
+        return medians;
+    }
+
     uint32_t dispatches() const override { return commands_[0]->dispatchCount(); }
 
     Result<std::vector<std::byte>> save() override {
@@ -194,6 +178,25 @@ private:
         return {};
     }
 
+    Result<std::vector<double>> mediansOf(uint32_t steps) {
+        std::vector<std::vector<double>> times; // of each dispatch
+        for (uint32_t k = 0; k < std::max(steps, 1u); k++) {
+            if (auto done = step(1); !done) return done.error();
+            const auto spans = commands_[(made_ + 1) & 1]->spanTimes();
+            if (!spans) return spans.error();
+            times.resize(spans->size()); // of a queue without timestamps there are none
+            for (size_t pass = 0; pass < times.size(); pass++)
+                times[pass].push_back(1000 * (*spans)[pass]);
+        }
+        std::vector<double> medians;
+        for (std::vector<double>& of_pass : times) {
+            const auto middle = of_pass.begin() + static_cast<ptrdiff_t>(of_pass.size() / 2);
+            std::ranges::nth_element(of_pass, middle);
+            medians.push_back(*middle);
+        }
+        return medians;
+    }
+
     bool bounce() const {
         return std::ranges::any_of(contents_.shapes, [](const auto& shape) { return shape.inverse_inertia[1].w > 0; });
     }
@@ -227,7 +230,6 @@ private:
         for (size_t k = 0, at = 0; k < was.size(); at += was[k].size, k++)
             upload.add(std::span(*saved).subspan(at, was[k].size), now[k].sub(0, was[k].size));
         if (auto done = upload.send(device_); !done) return done;
-        submitted_[0] = submitted_[1] = false;
         return record();
     }
 
@@ -294,25 +296,11 @@ private:
     WorldBudget budget_;
     std::unique_ptr<engine::Commands> commands_[2];
     bool submitted_[2] = {false, false};
+    bool times_passes_ = false;
     uint64_t made_ = 0;
 };
 
 } // namespace
-
-EffectSet effectsOf(const StepSettings& s) {
-    EffectSet set;
-    const auto addIf = [&](bool asked_for, Effect effect) {
-        if (asked_for) set.add(effect);
-    };
-    addIf(s.gravity != Double3{0, 0, 0}, Effect::Gravity);
-    addIf(s.contacts, Effect::Contacts);
-    addIf(s.contacts && s.friction, Effect::Friction);
-    addIf(s.contacts && s.restitution, Effect::Restitution);
-    addIf(s.contacts && s.ccd, Effect::Ccd);
-    addIf(s.contacts && s.sleeping, Effect::Sleeping);
-    addIf(s.drag, Effect::Drag);
-    return set;
-}
 
 Result<std::unique_ptr<World>> World::create(engine::Device& device, const WorldContents& contents,
                                              const StepSettings& settings, const WorldBudget& budget) {
