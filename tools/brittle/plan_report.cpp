@@ -37,8 +37,6 @@ std::string groupsOf(const Pass& pass) {
     switch (pass.size) {
     case PassSize::Lanes: return std::to_string(pass.count) + (pass.count == 1 ? " lane" : " lanes");
     case PassSize::Groups: return std::to_string(pass.count) + (pass.count == 1 ? " group" : " groups");
-    case PassSize::Fill:
-    case PassSize::Copy: return "";
     case PassSize::Arguments: return "by " + pass.counted_by;
     default: return size + ": " + pass.counted_by;
     }
@@ -97,7 +95,8 @@ void printPasses(const PlanReport& report) {
         const Pass& pass = *row.pass;
         if (pass.stage != stage) std::printf("  %s\n", pass.stage.c_str());
         stage = pass.stage;
-        std::printf("    %-22s %3ux  %s", pass.kernel.c_str(), row.times, groupsOf(pass).c_str());
+        std::printf("    %-22s %3ux", pass.kernel.c_str(), row.times);
+        if (pass.isDispatch()) std::printf("  %s", groupsOf(pass).c_str());
         if (!pass.constants.empty()) std::printf("  (%s)", constantsOf(pass).c_str());
         if (report.is_measured && pass.isDispatch()) std::printf("  %.1f us", row.us);
         std::printf("\n");
