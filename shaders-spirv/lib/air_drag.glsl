@@ -1,5 +1,5 @@
-// Air slows a body as it would the ball around it: F = -1/2 density * coefficient * area * |v| v, and in the same way the speed of
-// its rim. Over a step in which nothing else acts the equation has an exact solution, v / (1 + k |v| t), which never turns a
+// Air slows a body as it would the ball around it: F = -1/2 density * coefficient * area * |v| v, and in the same way the speed
+// of its rim. Over a step in which nothing else acts the equation has an exact solution, v / (1 + k |v| t), which never turns a
 // velocity around, however long the step.
 //
 // `strength`: half of density times coefficient times pi.

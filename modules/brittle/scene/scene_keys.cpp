@@ -72,8 +72,8 @@ constexpr SceneKey kSceneKeys[] = {
     {"comment", at<&SceneDescription::comment>, kAnything, "", "what it is about; the first line is shown in lists"},
     {"gravity", at<&SceneDescription::gravity>, from(-1e4, 1e4), "m/s2", "acts where `effects` has gravity"},
     {"effects", at<&SceneDescription::effects>, oneOf(kEffectNames), "",
-     "what the scene calls for; what is neither in the list nor needed by what is costs nothing; bonds and stress are not there "
-     "yet"},
+     "what the scene calls for; what is neither in the list nor needed by what is costs nothing; bonds and stress are not "
+     "there yet"},
     {"air_density", at<&SceneDescription::air_density>, from(0, 1e4), "kg/m3", "acts where `effects` has drag"},
     {"drag_coefficient", at<&SceneDescription::drag_coefficient>, from(0, 100), "",
      "of the ball around a body that air slows it as; acts where `effects` has drag"},
