@@ -47,8 +47,6 @@ public:
     }
     constexpr bool has(Effect effect) const { return (bits_ & bitOf(effect)) != 0; }
     constexpr void add(Effect effect) { bits_ |= bitOf(effect); }
-    constexpr void add(const EffectSet& others) { bits_ |= others.bits_; }
-    constexpr void remove(Effect effect) { bits_ &= ~bitOf(effect); }
     constexpr bool operator==(const EffectSet&) const = default;
     std::vector<Effect> list() const; // in the order of Effect
 
