@@ -79,6 +79,8 @@ Result<void> Commands::begin(Reuse reuse) {
     timestamps_.reset();
     dispatch_count_ = 0;
     barrier_count_ = 0;
+    label_.clear();
+    if (trace_) trace_->clear();
     if (external_) return {};
     if (pool_ == VK_NULL_HANDLE) {
         if (auto made = createOwn(); !made) return made;
@@ -128,11 +130,17 @@ Result<void> Commands::status() const {
 
 void Commands::dispatch(const Kernel& kernel, uint32_t invocations, Bytes push, Views buffers) {
     const uint32_t size = kernel.reflection.local_size[0];
-    dispatchGroups(kernel, invocations / size + (invocations % size != 0 ? 1 : 0), push, buffers);
+    if (invocations != 0) note(TracedCommand::Kind::Lanes, &kernel, invocations, buffers);
+    dispatchGrid(kernel, invocations / size + (invocations % size != 0 ? 1 : 0), push, buffers);
+}
+
+void Commands::dispatchGroups(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers) {
+    if (groups != 0) note(TracedCommand::Kind::Groups, &kernel, groups, buffers);
+    dispatchGrid(kernel, groups, push, buffers);
 }
 
 // More groups than one dimension takes are spread evenly over rows, so that less than a row's count of groups is too many.
-void Commands::dispatchGroups(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers) {
+void Commands::dispatchGrid(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers) {
     if (groups == 0) {
         accepts(kernel, push, buffers);
         return;
@@ -151,6 +159,7 @@ void Commands::dispatchIndirect(const Kernel& kernel, BufferView args, Bytes pus
         return;
     }
     if (!prepare(kernel, push, buffers, &args)) return;
+    note(TracedCommand::Kind::Indirect, &kernel, 0, buffers, args);
     if (time_kernels_) beginSpan(kernel.name);
     device_.vk().vkCmdDispatchIndirect(commands_, args.buffer->handle(), args.offset);
     if (time_kernels_) timestamps_.end(commands_);
@@ -245,6 +254,7 @@ void Commands::fill(BufferView target, uint32_t value) {
         fail({ErrorCode::Internal, "fill of a view that is not whole words of a buffer"});
         return;
     }
+    note(TracedCommand::Kind::Fill, nullptr, 0, {&target, 1});
     const Access access = accessOf(target, true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     declare({&access, 1});
     device_.vk().vkCmdFillBuffer(commands_, target.buffer->handle(), target.offset, target.size, value);
@@ -256,6 +266,8 @@ void Commands::copy(BufferView source, BufferView target) {
         fail({ErrorCode::Internal, "copy of " + std::to_string(source.size) + " bytes to " + std::to_string(target.size)});
         return;
     }
+    const BufferView both[] = {source, target};
+    note(TracedCommand::Kind::Copy, nullptr, 0, both);
     const Access accesses[] = {
         accessOf(source, false, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT),
         accessOf(target.sub(0, source.size), true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT)};
@@ -269,6 +281,7 @@ void Commands::beginLabel(std::string_view name) {
         fail({ErrorCode::Internal, "label \"" + std::string(name) + "\" begins inside another"});
         return;
     }
+    label_ = name;
     if (!time_kernels_) beginSpan(name);
     if (!device_.hasDebugUtils()) return;
     const std::string terminated(name);
@@ -278,12 +291,18 @@ void Commands::beginLabel(std::string_view name) {
 }
 
 void Commands::endLabel() {
+    label_.clear();
     if (!time_kernels_) timestamps_.end(commands_);
     if (device_.hasDebugUtils()) vkCmdEndDebugUtilsLabelEXT(commands_);
 }
 
 void Commands::beginSpan(std::string_view name) {
     if (auto begun = timestamps_.begin(commands_, name); !begun) fail(begun.error());
+}
+
+void Commands::note(TracedCommand::Kind kind, const Kernel* kernel, uint32_t count, Views buffers,
+                    const BufferView& arguments) {
+    if (trace_) trace_->push_back({kind, label_, kernel, count, arguments, {buffers.begin(), buffers.end()}});
 }
 
 void Commands::flush() {

@@ -14,6 +14,7 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,17 @@
 namespace engine {
 
 struct NoPush {};
+
+// A command as it was recorded, for whoever wants to know what a recording is made of.
+struct TracedCommand {
+    enum class Kind : uint8_t { Lanes, Groups, Indirect, Fill, Copy };
+    Kind kind = Kind::Groups;
+    std::string label;               // that it lies in
+    const Kernel* kernel = nullptr;  // none of fills and copies
+    uint32_t count = 0;              // lanes or workgroups
+    BufferView arguments;            // of what is dispatched indirectly
+    std::vector<BufferView> buffers; // by binding; of a fill the target, of a copy source and target
+};
 
 class Commands {
 public:
@@ -77,8 +89,13 @@ public:
     // From the next label on, spans are the kernels that lie in labels, under their own names, instead of the labels: what
     // takes the time, at the price of two timestamps a dispatch.
     void timeKernels() { time_kernels_ = true; }
+    // From here on every command is noted down as well.
+    void keepTrace() { trace_.emplace(); }
+    std::span<const TracedCommand> trace() const { return trace_ ? *trace_ : std::span<const TracedCommand>(); }
     // Once the device has finished.
     Result<std::vector<Timing>> timings() const { return timestamps_.read(); }
+    // The same one by one, in ms and in the order of the recording: of labels, or of dispatches where kernels are timed.
+    Result<std::vector<double>> spanTimes() const { return timestamps_.spans(); }
 
     // Makes all that was recorded visible to every later command and to the host. An own recording ends with it; a caller's
     // command buffer needs it before commands that were not recorded here.
@@ -108,6 +125,8 @@ private:
     bool acceptsView(const Kernel& kernel, uint32_t slot, const BufferView& view);
     bool prepare(const Kernel& kernel, Bytes push, Views buffers, const BufferView* args);
     bool bindBuffers(const Kernel& kernel, Views buffers);
+    void dispatchGrid(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers);
+    void note(TracedCommand::Kind kind, const Kernel* kernel, uint32_t count, Views buffers, const BufferView& arguments = {});
     void declare(std::span<const Access> accesses);
     void beginSpan(std::string_view name);
     Result<void> createOwn();
@@ -123,6 +142,8 @@ private:
     DescriptorPools descriptors_;
     Timestamps timestamps_;
     std::optional<Error> error_;
+    std::optional<std::vector<TracedCommand>> trace_;
+    std::string label_;
     uint32_t dispatch_count_ = 0;
     uint32_t barrier_count_ = 0;
 };

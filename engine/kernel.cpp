@@ -103,6 +103,14 @@ uint32_t KernelLibrary::kernelCount() const {
     return static_cast<uint32_t>(kernels_.size());
 }
 
+std::vector<std::string> KernelLibrary::kernelNames() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::string> names;
+    for (const auto& [key, kernel] : kernels_)
+        if (names.empty() || names.back() != key.first) names.push_back(key.first);
+    return names;
+}
+
 double KernelLibrary::creationMs() const {
     const std::lock_guard lock(mutex_);
     return creation_ms_;
@@ -118,6 +126,7 @@ Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::
     kernel->reflection = std::move(*reflection);
     const std::vector<SpecConstant> constants = constantsOf(kernel->reflection, spec);
     specializeLocalSize(kernel->reflection, constants);
+    kernel->constants = constants;
     auto made = checkInterface(*kernel, device_.limits());
     if (made) made = makeLayouts(*kernel);
     if (made) made = makePipeline(*kernel, module->words, constants);

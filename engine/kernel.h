@@ -20,6 +20,11 @@ class Device;
 // The most buffers that one kernel may bind; every device is asked for 16, those with more may use them.
 constexpr uint32_t kMaxBindings = 32;
 
+struct SpecConstant {
+    uint32_t id = 0; // constant_id, or local_size_x_id
+    uint32_t value = 0;
+};
+
 struct Kernel {
     std::string name;
     Reflection reflection; // local_size as it was specialized
@@ -27,12 +32,9 @@ struct Kernel {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkPipeline pipeline = VK_NULL_HANDLE;
 
-    uint32_t bufferCount() const { return static_cast<uint32_t>(reflection.bindings.size()); }
-};
+    std::vector<SpecConstant> constants; // that it was specialized with
 
-struct SpecConstant {
-    uint32_t id = 0; // constant_id, or local_size_x_id
-    uint32_t value = 0;
+    uint32_t bufferCount() const { return static_cast<uint32_t>(reflection.bindings.size()); }
 };
 
 struct KernelRequest {
@@ -61,6 +63,7 @@ public:
     std::span<const shaders::Module> modules() const { return modules_; }
     const std::vector<SpecConstant>& common() const { return common_; }
     uint32_t kernelCount() const;
+    std::vector<std::string> kernelNames() const; // of those made so far, in order, each once
     double creationMs() const; // in the driver, added up over all pipelines, also those made at the same time
 
 private:

@@ -117,4 +117,15 @@ VkDeviceSize MemoryPool::allocatedBytes() const {
     return total;
 }
 
+VkDeviceSize MemoryPool::takenBytes() const {
+    const std::lock_guard lock(mutex_);
+    VkDeviceSize total = 0;
+    for (const auto& block : blocks_) {
+        total += block->size;
+        for (const auto& [offset, length] : block->free)
+            total -= length;
+    }
+    return total;
+}
+
 } // namespace engine

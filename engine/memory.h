@@ -42,6 +42,7 @@ public:
     void giveBack(const MemoryShare& share);
 
     VkDeviceSize allocatedBytes() const; // in all blocks, used or not
+    VkDeviceSize takenBytes() const;     // of these, what buffers and images have
     Result<uint32_t> pickType(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
 
 private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <spirv/unified1/spirv.hpp>
 #include <string_view>
 
@@ -223,6 +222,19 @@ void setLocalSize(const Parsed& parsed, Reflection& result) {
     }
 }
 
+void addSpecConstants(const Parsed& parsed, Reflection& result) {
+    std::map<uint32_t, std::string> names; // by constant_id; several may have the same
+    for (const auto& [id, decorations] : parsed.decorations) {
+        if (!decorations.has(spv::DecorationSpecId)) continue;
+        std::string& name = names[decorations.get(spv::DecorationSpecId)];
+        if (const auto own = parsed.names.find(id); own != parsed.names.end()) name = own->second;
+    }
+    for (const auto& [id, name] : names) {
+        result.spec_ids.push_back(id);
+        result.spec_names.push_back(name);
+    }
+}
+
 ShaderStage stageOf(spv::ExecutionModel model) {
     switch (model) {
     case spv::ExecutionModelGLCompute: return ShaderStage::Compute;
@@ -250,11 +262,7 @@ Result<Reflection> reflect(std::span<const uint32_t> words) {
     setLocalSize(parsed, result);
     addVariables(parsed, result);
     addStructs(parsed, result);
-    std::set<uint32_t> ids;
-    for (const auto& [id, decorations] : parsed.decorations) {
-        if (decorations.has(spv::DecorationSpecId)) ids.insert(decorations.get(spv::DecorationSpecId));
-    }
-    result.spec_ids.assign(ids.begin(), ids.end());
+    addSpecConstants(parsed, result);
     return result;
 }
 

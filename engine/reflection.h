@@ -42,6 +42,7 @@ struct Reflection {
     std::array<uint32_t, 3> local_size = {1, 1, 1};        // where nothing is specialized
     std::array<std::optional<uint32_t>, 3> local_size_ids; // constant_ids that set it
     std::vector<uint32_t> spec_ids;                        // ascending
+    std::vector<std::string> spec_names;                   // of these; empty for what has none
     std::vector<ReflectedStruct> structs;
 };
 

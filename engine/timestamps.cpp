@@ -51,7 +51,20 @@ void Timestamps::reset() {
 }
 
 Result<std::vector<Timing>> Timestamps::read() const {
+    const auto ms = spans();
+    if (!ms) return ms.error();
     std::vector<Timing> timings;
+    for (size_t span = 0; span < names_.size(); ++span) {
+        auto place = std::ranges::find(timings, names_[span], &Timing::name);
+        if (place == timings.end()) place = timings.insert(timings.end(), {names_[span], 0, 0});
+        place->ms += (*ms)[span];
+        ++place->count;
+    }
+    return timings;
+}
+
+Result<std::vector<double>> Timestamps::spans() const {
+    std::vector<double> ms;
     for (size_t span = 0; span < names_.size(); ++span) {
         const auto query = static_cast<uint32_t>(2 * span);
         uint64_t ticks[2] = {};
@@ -59,12 +72,9 @@ Result<std::vector<Timing>> Timestamps::read() const {
             device_.handle(), pools_[query / kQueriesPerPool], query % kQueriesPerPool, 2, sizeof(ticks), ticks,
             sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
         if (got != VK_SUCCESS) return vulkanError("timestamps", got);
-        auto place = std::ranges::find(timings, names_[span], &Timing::name);
-        if (place == timings.end()) place = timings.insert(timings.end(), {names_[span], 0, 0});
-        place->ms += milliseconds(ticks[0], ticks[1]);
-        ++place->count;
+        ms.push_back(milliseconds(ticks[0], ticks[1]));
     }
-    return timings;
+    return ms;
 }
 
 // Bottom of the pipe for both ends: a span begins when all before it has ended.

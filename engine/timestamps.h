@@ -31,6 +31,8 @@ public:
 
     // In the order of first appearance; after the device has finished. Empty on a queue without timestamps.
     Result<std::vector<Timing>> read() const;
+    // The same span by span, in ms.
+    Result<std::vector<double>> spans() const;
 
 private:
     void write(VkCommandBuffer commands, uint32_t query) const;

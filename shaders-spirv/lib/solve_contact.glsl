@@ -15,6 +15,9 @@
 // Wants `solver_bodies` and `solver_contacts` declared. Its push constants are those of SolverPush.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
+#include "lib/effect.glsl"
+
+FRICTION_EFFECT;
 
 layout(push_constant) uniform Push {
     vec4 gravity;
@@ -212,7 +215,7 @@ void solveContact(uint c) {
     Touching t = touchingOf(c, ids, normal.xyz);
     vec4 limits = solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft;
     pressContact(c, normal.xyz, ids.z, limits, t);
-    rubContact(c, normal, ids.z, t);
+    if (kFriction != 0u) rubContact(c, normal, ids.z, t);
     keepMotion(ids.x, t.a);
     keepMotion(ids.y, t.b);
 }

@@ -1,11 +1,16 @@
-// A step begins: what the solver wants of each body, and whether any is fast for its size (lib/held_way.glsl).
+// A step begins: what the solver wants of each body, slowed by the air where there is any, and whether any is fast for its size
+// (lib/held_way.glsl).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/rigid.glsl"
 #include "lib/held_way.glsl"
+#include "lib/effect.glsl"
+#include "lib/air_drag.glsl"
 
 FLAT_KERNEL;
+CCD_EFFECT;
+DRAG_EFFECT;
 UPDATES(0, uint, counts);
 READS(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
@@ -19,10 +24,16 @@ void main() {
     if (b >= counts[COUNT_BODIES]) return;
     BodyState state = bodies[b];
     mat3 inverse = worldInertia(ownInverseInertia(shapes[b]), state.turn);
-    solver_bodies[b] = SolverBody(vec4(state.velocity.xyz, state.offset.w), vec4(state.spin.xyz, inverse[2][2]),
+    vec3 velocity = state.velocity.xyz, spin = state.spin.xyz;
+    if (kDrag != 0u) {
+        velocity = velocityInAir(velocity, state.offset.w, shapes[b], uintBitsToFloat(kDrag), gravity.w);
+        spin = spinInAir(spin, shapes[b], uintBitsToFloat(kDrag), gravity.w);
+    }
+    solver_bodies[b] = SolverBody(vec4(velocity, state.offset.w), vec4(spin, inverse[2][2]),
                                   vec4(inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1]), vec4(0.0, 0.0, 0.0, inverse[1][2]),
                                   vec4(0.0, 0.0, 0.0, 1.0));
     spins[b] = vec4(state.spin.xyz, 0.0);
+    if (kCcd == 0u) return;
     shares[b] = floatBitsToUint(1.0);
     bool swift = isSwift(length(wayAhead(state.velocity.xyz, gravity)), gravity.w * length(state.spin.xyz), shapes[b]);
     if (swift && state.offset.w != 0.0) counts[COUNT_SWIFT] = 1u;

@@ -5,8 +5,10 @@
 #include "lib/kernel.glsl"
 #include "lib/rigid.glsl"
 #include "lib/held_way.glsl"
+#include "lib/effect.glsl"
 
 FLAT_KERNEL;
+CCD_EFFECT;
 UPDATES(0, uint, counts);
 UPDATES(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
@@ -35,6 +37,10 @@ void stop(uint b) {
     atomicMax(counts[STATUS_STOPPED_BODY], b + 1u);
 }
 
+float shareFor(uint b, vec3 moved) {
+    return min(uintBitsToFloat(shares[b]), shareOfWay(moved, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
+}
+
 void main() {
     uint b = flatIndex();
     if (b >= counts[COUNT_BODIES] || counts[STATUS_FAILED] != 0u) return;
@@ -44,7 +50,7 @@ void main() {
     vec4 from = bodies[b].turn, turn = normalize(turnAfter(s.turned, from));
     mat3 own = ownInverseInertia(shapes[b]);
     vec3 momentum = takeUpSpin(b, own, turn, s.spin.xyz), spin = s.spin.xyz;
-    float share = min(uintBitsToFloat(shares[b]), shareOfWay(s.moved.xyz, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
+    float share = kCcd != 0u ? shareFor(b, s.moved.xyz) : 1.0;
     if (share < 1.0) {
         vec4 held = normalize(turnAfter(shareOfTurn(s.turned, share), from)), back = turnAfter(held, turnBack(turn));
         // Along with the body, or it would have another energy.

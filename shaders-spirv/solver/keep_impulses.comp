@@ -2,9 +2,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/effect.glsl"
 #include "shared/solver.h"
 
 FLAT_KERNEL;
+FRICTION_EFFECT;
 READS(0, uint, counts);
 READS(1, SolverContact, solver_contacts);
 UPDATES(2, ContactMemory, memory);
@@ -14,7 +16,7 @@ void main() {
     uint c = flatIndex();
     if (c >= counts[COUNT_CONTACTS]) return;
     uvec4 ids = solver_contacts[c].ids;
-    memory[ids.w].rub.xyz = isBlow(c, ids.z) ? vec3(0.0) : solver_contacts[c].rub.xyz;
+    if (kFriction != 0u) memory[ids.w].rub.xyz = isBlow(c, ids.z) ? vec3(0.0) : solver_contacts[c].rub.xyz;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         vec4 pulse = solver_contacts[c].points[k].pulse;
         bool blow = pulse.w != 0.0;

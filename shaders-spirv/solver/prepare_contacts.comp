@@ -5,9 +5,11 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
 #include "lib/solver_body.glsl"
+#include "lib/effect.glsl"
 #include "shared/body.h"
 
 FLAT_KERNEL;
+FRICTION_EFFECT;
 READS(0, uint, counts);
 READS(1, uint, contact_pairs);
 READS(2, uint, contact_slots);
@@ -113,9 +115,11 @@ void main() {
     solver_contacts[c].center_b = vec4(center_b + p.slid_b, reach);
     mat4 press = pressMass(pair, points, p, normal.xyz);
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
-    solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
+    if (kFriction != 0u) solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
     vec4 loads = vec4(0.0);
     for (uint k = 0u; k < points; k++) loads[k] = float(LOAD_CARRIED) * memory[pair].arm_b[k].w;
     solver_contacts[c].loads = loads;
-    solver_contacts[c].rub_mass = vec4(rubMass(p, center_a + p.slid_a, center_b + p.slid_b, tangent.xyz, cross(normal.xyz, tangent.xyz)), arms);
+    vec3 rub_mass = vec3(0.0);
+    if (kFriction != 0u) rub_mass = rubMass(p, center_a + p.slid_a, center_b + p.slid_b, tangent.xyz, cross(normal.xyz, tangent.xyz));
+    solver_contacts[c].rub_mass = vec4(rub_mass, arms);
 }

@@ -4,8 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/solver_body.glsl"
+#include "lib/effect.glsl"
 
 FLAT_KERNEL;
+CONTACTS_EFFECT;
+FRICTION_EFFECT;
 READS(0, uint, counts);
 READS(1, SolverContact, solver_contacts);
 READS(2, uint, adjacency_start);
@@ -17,7 +20,7 @@ layout(push_constant) uniform Push { SolverPush push_; };
 vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     uvec4 ids = solver_contacts[c].ids;
     vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
-    vec4 kept = solver_contacts[c].rub, rub = isBlow(c, ids.z) ? vec4(0.0) : kept;
+    vec4 kept = kFriction != 0u ? solver_contacts[c].rub : vec4(0.0), rub = isBlow(c, ids.z) ? vec4(0.0) : kept;
     vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
     vec3 slid = followed(solver_bodies[ids.x], solver_bodies[ids.y], solver_contacts[c].rub_mass.w, is_b);
     vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
@@ -38,7 +41,7 @@ void main() {
     Moving m = movingOf(solver_bodies[b]);
     if (m.inverse_mass == 0.0) return;
     vec3 impulse = vec3(0.0), twist = vec3(0.0);
-    uint first = adjacency_start[b], last = adjacency_start[b + 1u];
+    uint first = kContacts != 0u ? adjacency_start[b] : 0u, last = kContacts != 0u ? adjacency_start[b + 1u] : 0u;
     for (uint k = first; k < last; k++) {
         uint entry = adjacency[k];
         bool is_b = (entry & 1u) != 0u;

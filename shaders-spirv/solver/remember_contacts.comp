@@ -4,11 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/quaternion.glsl"
+#include "lib/effect.glsl"
 #include "shared/broad_phase.h"
 #include "shared/solver.h"
 #include "shared/body.h"
 
 FLAT_KERNEL;
+FRICTION_EFFECT;
 READS(0, uint, counts);
 READS(1, uint, recalled);
 READS(2, uint, fresh_slots); // prefix sum of `fresh`: where a fresh pair's manifold lies
@@ -64,7 +66,8 @@ void remember(uint p, uint slot, uint old) {
     memory[p].ids = uvec4(a, b, min(m.info.x, MANIFOLD_POINTS), color);
     memory[p].normal = vec4(m.normal.xyz, sqrt(surface_a.x * surface_b.x));
     memory[p].tangent = vec4(tangent, max(surface_a.y, surface_b.y));
-    memory[p].rub = vec4(old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent), armsOf(a, b));
+    memory[p].rub.w = armsOf(a, b);
+    if (kFriction != 0u) memory[p].rub.xyz = old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent);
     memory[p].turn_a = turn_a;
     memory[p].turn_b = turn_b;
     memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), m.info.x == 0u ? m.normal.w : 0.0);

@@ -50,6 +50,39 @@ TEST(Dispatch, OfNothingRecordsNothing) {
     EXPECT_EQ(wordsOf(words)[0], 41u);
 }
 
+TEST(Dispatch, ATraceTellsWhatWasRecordedInOrder) {
+    const Buffer words = scratch(device(), 256);
+    const BufferView all = words, args = all.sub(768, 12);
+    Commands commands(device());
+    ASSERT_TRUE(commands.begin());
+    commands.dispatch(testKernel(device(), "increment"), 5, NoPush{}, {words});
+    EXPECT_TRUE(commands.trace().empty()) << "nobody has asked yet";
+    commands.keepTrace();
+    commands.fill(words, 0);
+    commands.beginLabel("first");
+    commands.dispatch(testKernel(device(), "increment"), 100, NoPush{}, {all.sub(0, 256)});
+    commands.dispatchGroups(testKernel(device(), "increment"), 3, NoPush{}, {words});
+    commands.endLabel();
+    commands.dispatchIndirect(testKernel(device(), "increment"), args, NoPush{}, {all.sub(0, 256)});
+    commands.copy(all.sub(0, 16), all.sub(32, 16));
+    finish(commands);
+    using Kind = TracedCommand::Kind;
+    const auto trace = commands.trace();
+    ASSERT_EQ(trace.size(), 5u);
+    const Kind kinds[] = {Kind::Fill, Kind::Lanes, Kind::Groups, Kind::Indirect, Kind::Copy};
+    for (size_t k = 0; k < 5; ++k)
+        EXPECT_EQ(trace[k].kind, kinds[k]) << k;
+    EXPECT_EQ(trace[0].kernel, nullptr);
+    EXPECT_EQ(trace[1].kernel->name, "increment");
+    EXPECT_EQ(trace[1].label, "first");
+    EXPECT_EQ(trace[1].count, 100u);
+    EXPECT_EQ(trace[1].buffers.at(0).size, 256u);
+    EXPECT_EQ(trace[2].count, 3u);
+    EXPECT_EQ(trace[3].label, "");
+    EXPECT_EQ(trace[3].arguments.offset, 768u);
+    EXPECT_EQ(trace[4].buffers.at(1).offset, 32u);
+}
+
 TEST(Dispatch, BindsSixteenBuffers) {
     for (Device* device : allDevices()) {
         const Buffer word = upload(*device, {3}), sum = readback(*device, 1);

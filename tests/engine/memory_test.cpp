@@ -43,6 +43,18 @@ TEST(Buffers, ShareABlockOfMemoryWithoutTouchingEachOther) {
     EXPECT_EQ(device->memory().allocatedBytes(), allocated);
 }
 
+TEST(Buffers, AreCountedByWhatTheyTake) {
+    const auto device = ownDevice();
+    const VkDeviceSize before = device->memory().takenBytes();
+    {
+        const Buffer a = bufferOf(*device, 1000), b = bufferOf(*device, VkDeviceSize(50) << 20);
+        const VkDeviceSize taken = device->memory().takenBytes() - before;
+        EXPECT_GE(taken, a.size() + b.size());
+        EXPECT_LE(taken, a.size() + b.size() + 2 * 256);
+    }
+    EXPECT_EQ(device->memory().takenBytes(), before);
+}
+
 TEST(Buffers, GiveTheirMemoryBack) {
     const auto device = ownDevice();
     const VkDeviceSize before = device->memory().allocatedBytes();

@@ -17,6 +17,7 @@ void addShatter(CLI::App& app, int& exit_code);
 void addDevices(CLI::App& app, int& exit_code);
 void addDoctor(CLI::App& app, int& exit_code);
 void addScenes(CLI::App& app, int& exit_code);
+void addPlan(CLI::App& app, int& exit_code);
 void addSimulate(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code); // in tools/bench
 

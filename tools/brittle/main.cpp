@@ -7,8 +7,8 @@
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices,  cli::addDoctor,
-                                         cli::addScenes,  cli::addSimulate, cli::addBench};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli::addDoctor, cli::addScenes,
+                                         cli::addSimulate, cli::addPlan,    cli::addBench};
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -16,6 +16,7 @@ constexpr const char* kFooter =
     "  brittle shatter builtin:ring -o ring.glb --sites 40 --picture ring.png --explode 0.3\n"
     "  brittle doctor vase.stl\n"
     "  brittle simulate card_house -o house.glb\n"
+    "  brittle plan card_house --measure\n"
     "\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
 

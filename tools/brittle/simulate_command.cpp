@@ -45,24 +45,6 @@ Result<void> checkOutputApart(const SimulateOptions& options, const brittle::Sce
     return {};
 }
 
-Result<StagedScene> stage(const SimulateOptions& options, brittle::SceneDescription scene, engine::Device& device) {
-    StagedScene staged;
-    staged.scene = std::move(scene);
-    if (staged.scene.name.empty()) staged.scene.name = options.scene;
-    std::unique_ptr<brittle::Fracture> fracture;
-    if (brittle::needsFracture(staged.scene)) {
-        auto made = brittle::Fracture::create(device, options.group_size);
-        if (!made) return made.error();
-        fracture = std::move(*made);
-    }
-    showProgress("making the bodies");
-    auto contents = brittle::contentsOf(staged.scene, folderOf(options.scene), fracture.get(),
-                                        options.output.empty() ? nullptr : &staged.surfaces);
-    if (!contents) return Error{contents.error().code, staged.scene.name + ": " + contents.error().message};
-    staged.contents = std::move(*contents);
-    return staged;
-}
-
 Result<std::unique_ptr<MotionOutput>> openOutput(const SimulateOptions& options, const brittle::SceneDescription& scene) {
     if (options.output.empty()) return std::unique_ptr<MotionOutput>();
     if (auto apart = checkOutputApart(options, scene); !apart) return apart.error();
@@ -79,7 +61,7 @@ Result<SimulateOutcome> run(const SimulateOptions& options) {
     auto opened = engine::Device::create({.select = options.device});
     if (!opened) return opened.error();
     device = std::move(*opened);
-    const auto staged = stage(options, std::move(*scene), *device);
+    const auto staged = stageScene(*device, std::move(*scene), {options.scene, options.group_size, !options.output.empty()});
     if (!staged) return staged.error();
     auto report = simulate(*device, *staged, options.seconds, options.group_size, output->get());
     if (!report) return report.error();
@@ -107,7 +89,7 @@ int runSimulate(const SimulateOptions& options) {
         return fail({ErrorCode::BadInput, "nothing is asked for; give -o, --json or --state-hash"});
     const auto outcome = run(options);
     if (!outcome) return fail(outcome.error());
-    reportLeftOut(outcome->report);
+    reportLeftOut(outcome->report.scene, outcome->report.left_out);
     print(options, *outcome);
     return kOk;
 }

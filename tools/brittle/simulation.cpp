@@ -2,6 +2,7 @@
 
 #include "modules/brittle/mesh/format.h"
 #include "tools/brittle/progress.h"
+#include "tools/brittle/scene_source.h"
 #include "tools/brittle/world_clock.h"
 
 #include <algorithm>
@@ -119,27 +120,50 @@ void Simulation::addTimes(SimulationReport& report) const {
 
 } // namespace
 
+Result<StagedScene> stageScene(engine::Device& device, brittle::SceneDescription scene, const Staging& staging) {
+    StagedScene staged;
+    staged.scene = std::move(scene);
+    if (staged.scene.name.empty()) staged.scene.name = staging.source;
+    std::unique_ptr<brittle::Fracture> fracture;
+    if (brittle::needsFracture(staged.scene)) {
+        auto made = brittle::Fracture::create(device, staging.group_size);
+        if (!made) return made.error();
+        fracture = std::move(*made);
+    }
+    showProgress("making the bodies");
+    auto contents = brittle::contentsOf(staged.scene, folderOf(staging.source), fracture.get(),
+                                        staging.has_surfaces ? &staged.surfaces : nullptr);
+    if (!contents) return Error{contents.error().code, staged.scene.name + ": " + contents.error().message};
+    staged.contents = std::move(*contents);
+    return staged;
+}
+
+Result<std::unique_ptr<brittle::World>> worldOf(engine::Device& device, const StagedScene& staged, uint32_t group_size) {
+    const auto settings = brittle::settingsOf(staged.scene);
+    if (!settings) return aboutScene(staged, settings.error());
+    const brittle::WorldBudget budget = {staged.scene.budgets.pairs, staged.scene.budgets.contacts, group_size};
+    auto world = brittle::World::create(device, staged.contents, *settings, budget);
+    if (!world) return aboutScene(staged, world.error());
+    return world;
+}
+
 Result<SimulationReport> simulate(engine::Device& device, const StagedScene& staged, std::optional<double> seconds,
                                   uint32_t group_size, MotionOutput* output) {
-    const auto about = [&](const Error& error) { return aboutScene(staged, error); };
-    const auto settings = brittle::settingsOf(staged.scene);
-    if (!settings) return about(settings.error());
     const auto steps = stepsOf(staged.scene.step, seconds);
     if (!steps) return steps.error();
-    const brittle::WorldBudget budget = {staged.scene.budgets.pairs, staged.scene.budgets.contacts, group_size};
-    const auto world = brittle::World::create(device, staged.contents, *settings, budget);
-    if (!world) return about(world.error());
+    const auto world = worldOf(device, staged, group_size);
+    if (!world) return world.error();
     Simulation simulation(device, staged, **world, *steps);
     if (auto done = simulation.run(output); !done) return done.error();
     return simulation.report();
 }
 
-void reportLeftOut(const SimulationReport& report) {
-    if (report.left_out.empty()) return;
+void reportLeftOut(const std::string& scene, const std::vector<std::string>& effects, const char* what) {
+    if (effects.empty()) return;
     std::string names;
-    for (const std::string& name : report.left_out)
+    for (const std::string& name : effects)
         names += (names.empty() ? "" : ", ") + name;
-    std::fprintf(stderr, "brittle: %s: simulated without %s, which there is not yet\n", report.scene.c_str(), names.c_str());
+    std::fprintf(stderr, "brittle: %s: %s without %s, which there is not yet\n", scene.c_str(), what, names.c_str());
 }
 
 std::string hexOf(uint64_t hash) {

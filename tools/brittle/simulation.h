@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +23,17 @@ struct StagedScene {
     brittle::WorldSurfaces surfaces;                              // only read where there is an output
     std::string room_advice = "see [budgets] in the scene"; // where something does not fit
 };
+
+struct Staging {
+    std::string source; // the file or the built-in scene, as it was asked for
+    uint32_t group_size = 0;
+    bool has_surfaces = false;
+};
+
+// Makes the bodies of a scene, and breaks what begins broken. Errors: with the scene's name.
+engine::Result<StagedScene> stageScene(engine::Device& device, brittle::SceneDescription scene, const Staging& staging);
+// A world of it, with its settings and budgets. Errors: likewise, Capacity with the key of the scene to raise.
+engine::Result<std::unique_ptr<brittle::World>> worldOf(engine::Device& device, const StagedScene& staged, uint32_t group_size);
 
 struct SimulationReport {
     std::string scene;
@@ -48,6 +60,6 @@ nlohmann::ordered_json simulationJson(const SimulationReport& report);
 void printSimulation(const SimulationReport& report, const std::string& output);
 std::string hexOf(uint64_t hash); // 16 digits
 // One line on stderr where the world goes on without effects that were asked for.
-void reportLeftOut(const SimulationReport& report);
+void reportLeftOut(const std::string& scene, const std::vector<std::string>& effects, const char* what = "simulated");
 
 } // namespace cli

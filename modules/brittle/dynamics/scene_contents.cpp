@@ -156,10 +156,6 @@ Double3 middleOf(const ColliderDescription& d, const std::vector<BodyDescription
     return mean - dot(mean - d.place, out) * out;
 }
 
-bool hasEffect(const SceneDescription& scene, std::string_view name) {
-    return std::ranges::find(scene.effects, name) != scene.effects.end();
-}
-
 // About the common center of mass of all cells: pieces, mass, inertia.
 BodyDefinition compoundOf(BodyDefinition body, const FragmentSet& set, double density, const Double3& center) {
     for (uint32_t k = 0; k < set.fragments.size(); k++) {
@@ -206,7 +202,6 @@ private:
     Result<void> addCollider(const ColliderDescription& d, const std::string& name);
     Result<void> addPlane(const ColliderDescription& d, BodyDefinition body);
     Result<void> addSurface(const ColliderDescription& d, BodyDefinition body);
-    void leaveOutEffects();
     // Of a body whose material is known.
     double weigh(const BodyDescription& d, double volume) const { return massOf(d, *densityOf(d, scene_.materials), volume); }
     // `surface` is only made where surfaces are asked for.
@@ -237,16 +232,7 @@ Result<WorldContents> ContentsMaker::all(const FragmentSet* broken) {
     for (size_t k = 0; k < scene_.colliders.size(); k++)
         if (auto added = addCollider(scene_.colliders[k], nameOf(scene_.colliders[k].name, "collider", k)); !added)
             return added.error();
-    leaveOutEffects();
     return std::move(contents_);
-}
-
-void ContentsMaker::leaveOutEffects() {
-    const bool friction = hasEffect(scene_, "friction"), restitution = hasEffect(scene_, "restitution");
-    for (gpu::BodyShape& shape : contents_.shapes) {
-        if (!friction) shape.inverse_inertia[0].w = 0;
-        if (!restitution) shape.inverse_inertia[1].w = 0;
-    }
 }
 
 Result<void> ContentsMaker::addDescribed(const BodyDescription& d, const std::string& name) {
@@ -361,17 +347,26 @@ Result<WorldContents> contentsOfBroken(const SceneDescription& scene, const Frag
 }
 
 Result<StepSettings> settingsOf(const SceneDescription& scene) {
+    const auto effects = resolve(scene.effects);
+    if (!effects) return effects.error();
+    const auto has = [&](Effect effect) { return effects->set.has(effect); };
     StepSettings s;
-    s.gravity = hasEffect(scene, "gravity") ? scene.gravity : Double3{0, 0, 0};
+    s.gravity = has(Effect::Gravity) ? scene.gravity : Double3{0, 0, 0};
     s.dt = scene.step.dt;
     s.substeps = scene.step.substeps;
     s.iterations = scene.step.iterations;
-    s.contacts = hasEffect(scene, "contacts");
+    s.contacts = has(Effect::Contacts);
+    s.friction = has(Effect::Friction);
+    s.restitution = has(Effect::Restitution);
+    s.ccd = has(Effect::Ccd);
+    s.sleeping = has(Effect::Sleeping);
+    s.drag = has(Effect::Drag);
+    s.air_density = scene.air_density;
+    s.drag_coefficient = scene.drag_coefficient;
     s.contact_hertz = scene.step.contact_hertz;
     s.contact_damping = scene.step.contact_damping;
     s.push_out = scene.step.push_out;
     s.margin = scene.step.margin;
-    s.sleeping = hasEffect(scene, "sleeping");
     s.recycling = scene.step.recycling;
     s.fixed_axes = scene.step.axes == AxisKind::Fixed ? 26 : 0;
     if (scene.step.solver == SolverKind::Hard)
@@ -380,10 +375,11 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
 }
 
 std::vector<std::string> effectsWithout(const SceneDescription& scene) {
-    static constexpr std::string_view kThere[] = {"gravity", "contacts", "friction", "restitution", "ccd", "sleeping"};
+    constexpr EffectSet kThere = {Effect::Gravity, Effect::Contacts, Effect::Friction, Effect::Restitution,
+                                  Effect::Ccd,     Effect::Sleeping, Effect::Drag};
     std::vector<std::string> without;
-    for (const std::string& effect : scene.effects)
-        if (std::ranges::find(kThere, effect) == std::end(kThere)) without.push_back(effect);
+    for (const std::string& name : scene.effects)
+        if (const auto effect = effectOf(name); effect && !kThere.has(*effect)) without.push_back(name);
     return without;
 }
 

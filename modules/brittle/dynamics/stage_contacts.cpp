@@ -53,26 +53,30 @@ void recordMemory(const Step& s) {
     s.record.commands().copy(s.record.counts().sub(4 * COUNT_BOX_PAIRS, 4), engine::BufferView(s.now.count).sub(0, 4));
 }
 
-} // namespace
-
-void recordBoxes(const Step& s) {
+void recordPieceBoxes(const Step& s) {
     struct Push {
         float gravity[4];
         float margin;
     } push = {{0, 0, 0, static_cast<float>(s.settings.dt)}, static_cast<float>(s.settings.margin / 2)};
+    s.record.run(
+        "bound_pieces", Length::counted(COUNT_BOXES), push,
+        {s.record.counts(), s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});
+}
+
+} // namespace
+
+void recordBoxes(const Step& s) {
     s.record.commands().beginLabel("boxes");
     const uint32_t sizes[] = {s.b.sizes.pieces, s.b.sizes.bodies};
     s.record.runGroups("open_step", 1, sizes, {s.record.counts(), s.record.args(), s.b.steps});
     s.record.run("begin_step", Length::counted(COUNT_BODIES), fallingOf(s),
                  {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares});
-    s.record.run(
-        "bound_pieces", Length::counted(COUNT_BOXES), push,
-        {s.record.counts(), s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});
+    if (s.has(Effect::Contacts)) recordPieceBoxes(s);
     s.record.commands().endLabel();
 }
 
 engine::Result<void> recordContacts(const Step& s) {
-    if (!s.settings.contacts) return {};
+    if (!s.has(Effect::Contacts)) return {};
     recordBroadPhase(s.record, broadPhaseOf(s));
     s.record.commands().beginLabel("narrow_phase");
     recordRecall(s);

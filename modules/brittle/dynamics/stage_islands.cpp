@@ -8,7 +8,7 @@
 namespace brittle {
 
 void recordIslands(const Step& s) {
-    if (!s.settings.sleeping) return;
+    if (!s.has(Effect::Sleeping)) return;
     const StepBuffers& b = s.b.step;
     const Length bodies = Length::counted(COUNT_BODIES), pairs = Length::counted(COUNT_BOX_PAIRS);
     const auto& counts = s.record.counts();
@@ -23,7 +23,7 @@ void recordIslands(const Step& s) {
 }
 
 void recordRest(const Step& s) {
-    if (!s.settings.sleeping) return;
+    if (!s.has(Effect::Sleeping)) return;
     const float push[] = {static_cast<float>(s.settings.dt), static_cast<float>(s.settings.sleep_speed)};
     s.record.run("time_rest", Length::counted(COUNT_BODIES), push,
                  {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.steps});

@@ -28,7 +28,7 @@ void recordRestOf(const Step& s, gpu::SolverPush push, Sweep sweep) {
     const StepBuffers& b = s.b.step;
     const std::string what = sweep == Sweep::Bounce ? "bounce_" : "solve_", lanes = s.many_lanes ? "_wide" : "";
     const auto groups = s.record.groupsOf(COUNT_SOLVED_APART);
-    if (s.settings.sleeping)
+    if (s.has(Effect::Sleeping))
         s.record.runGroups(
             what + "islands" + lanes, groups, push,
             {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies, b.island_ranges, b.color_ends});
@@ -53,7 +53,7 @@ void recordPass(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t first
     recordRestOf(s, push, sweep);
 }
 
-uint32_t passes(const Step& s) { return s.settings.contacts ? s.settings.iterations : 0; }
+uint32_t passes(const Step& s) { return s.has(Effect::Contacts) ? s.settings.iterations : 0; }
 
 void recordSubstep(const Step& s, gpu::SolverPush push, uint32_t substep) {
     const StepBuffers& b = s.b.step;
@@ -81,7 +81,7 @@ void recordOrder(const Step& s) {
     const auto once = s.record.groupsOf(COUNT_ONCE);
     s.record.clear({b.body_colors});
     s.record.commands().fill(b.bids, NO_INDEX);
-    if (!s.settings.sleeping)
+    if (!s.has(Effect::Sleeping))
         return s.record.runGroups("color_contacts", once, s.b.sizes.contacts,
                                   {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
                                    b.contact_slots, b.color_start, s.record.args()});
@@ -111,7 +111,7 @@ void recordAdjacency(const Step& s) {
 
 // Idles where no body is fast for its size.
 void recordHolding(const Step& s) {
-    if (!s.settings.contacts) return;
+    if (!s.has(Effect::Ccd)) return;
     const StepBuffers& b = s.b.step;
     const gpu::vec4 falling = fallingOf(s);
     const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(s.settings.margin)};
@@ -140,7 +140,7 @@ gpu::SolverPush solverPush(const Step& s) {
 }
 
 void recordColors(const Step& s) {
-    if (!s.settings.contacts) return;
+    if (!s.has(Effect::Contacts)) return;
     s.record.commands().beginLabel("colors");
     recordList(s);
     recordOrder(s);
@@ -152,14 +152,16 @@ void recordSolve(const Step& s) {
     const StepBuffers& b = s.b.step;
     const gpu::SolverPush push = solverPush(s);
     s.record.commands().beginLabel("solve");
-    if (!s.settings.contacts) s.record.clear({b.adjacency_start}); // nothing pushes
-    s.record.run(
-        "prepare_contacts", kContacts, push,
-        {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
+    const bool contacts = s.has(Effect::Contacts);
+    if (contacts)
+        s.record.run("prepare_contacts", kContacts, push,
+                     {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies,
+                      b.solver_contacts});
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push, k);
     if (s.bounces) recordPass(s, push, Sweep::Bounce);
-    s.record.run("keep_impulses", kContacts, engine::NoPush{}, {s.record.counts(), b.solver_contacts, s.now.contacts});
+    if (contacts)
+        s.record.run("keep_impulses", kContacts, engine::NoPush{}, {s.record.counts(), b.solver_contacts, s.now.contacts});
     s.record.commands().endLabel();
 }
 

@@ -16,6 +16,8 @@ struct Step {
     Recorder& record;
     bool many_lanes; // the device has them
     bool bounces;    // some body does
+
+    bool has(Effect effect) const { return b.sizes.effects.has(effect); }
 };
 
 void recordBoxes(const Step& step);

@@ -7,7 +7,6 @@
 #include "modules/brittle/fracture/upload.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace brittle {
@@ -20,23 +19,6 @@ using engine::Result;
 
 constexpr uint32_t kPairsPerPiece = 9, kLeastPairs = 1024; // as piles have them; there is more room made where it is needed
 
-Result<void> checkSettings(const StepSettings& s) {
-    const auto refuse = [](const std::string& why) { return Error{ErrorCode::BadInput, "world: " + why}; };
-    for (const double g : s.gravity)
-        if (!(std::fabs(g) <= 1e4)) return refuse("gravity is no number or beyond 1e4 m/s2");
-    if (!(s.dt >= 1e-6 && s.dt <= 1)) return refuse("a step takes " + std::to_string(s.dt) + " s; give it 1e-6 to 1");
-    if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
-    if (s.iterations < 1 || s.iterations > 64) return refuse(std::to_string(s.iterations) + " iterations; give 1 to 64");
-    if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
-        return refuse("contacts of that frequency or damping; give 0 to 1e4");
-    if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
-        return refuse("a push-out or bounce threshold that is negative or no number");
-    if (!(s.sleep_speed >= 0 && s.sleep_after >= 0))
-        return refuse("sleep below a speed or after a time that is negative or no number");
-    if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
-    return {};
-}
-
 uint64_t hashOf(std::span<const std::byte> bytes) {
     uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
     for (const std::byte b : bytes)
@@ -48,15 +30,18 @@ class DeviceWorld : public World {
 public:
     DeviceWorld(engine::Device& device, BodyOrder order, WorldContents contents, WorldBuffers buffers,
                 const StepSettings& settings, const WorldBudget& budget)
-        : device_(device), kernels_(device, shaders::all(), {{FLAT_SIZE_ID, budget.group_size}}), order_(std::move(order)),
-          contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings), budget_(budget) {}
+        : device_(device), kernels_(device, shaders::all(), kernelConstants(settings, budget.group_size)),
+          order_(std::move(order)), contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings),
+          budget_(budget) {}
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
+        submitted_[0] = submitted_[1] = false;
         for (uint32_t parity = 0; parity < 2; parity++) {
             commands_[parity] = std::make_unique<engine::Commands>(device_);
             engine::Commands& commands = *commands_[parity];
             if (auto begun = commands.begin(engine::Commands::Reuse::Many); !begun) return begun;
+            if (times_passes_) commands.timeKernels();
             Recorder recorder(commands, kernels_, b_.counts, b_.args);
             if (auto recorded = recordStep(recorder, parity); !recorded) return recorded;
             if (auto recorded = recorder.status(); !recorded) return recorded;
@@ -92,16 +77,15 @@ public:
 
     Result<WorldCounts> counts() override {
         std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLOR_WORDS);
-        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()},
-                                {b_.args, args.data(), 4 * args.size()},
-                                {b_.step.color_start, colors.data(), 4 * colors.size()}};
+        std::vector<Fetch> wanted = {{b_.counts, words.data(), 4 * words.size()}, {b_.args, args.data(), 4 * args.size()}};
+        if (has(Effect::Contacts)) wanted.push_back({b_.step.color_start, colors.data(), 4 * colors.size()});
         if (auto read = fetch(device_, wanted); !read) return read.error();
         WorldCounts c = {b_.sizes.bodies, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS],
                          words[COUNT_FRESH_PAIRS]};
         for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_SOLVED_APART; k++)
             c.groups += args[9 * k] * args[9 * k + 1];
         c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
-        c.awake = settings_.sleeping ? words[COUNT_AWAKE] : b_.movers;
+        c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers;
         c.colorless = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_LACKED];
         return c;
     }
@@ -111,8 +95,7 @@ public:
         if (!counted) return counted.error();
         std::vector<std::array<uint32_t, 2>> pairs(counted->pairs);
         if (pairs.empty()) return pairs;
-        const Fetch wanted[] = {
-            {BufferView(b_.memory[(made_ + 1) & 1].pairs).sub(0, 8 * pairs.size()), pairs.data(), 8 * pairs.size()}};
+        const Fetch wanted[] = {{b_.memory[(made_ + 1) & 1].pairs.sub(0, 8 * pairs.size()), pairs.data(), 8 * pairs.size()}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         for (auto& pair : pairs) {
             const uint32_t a = order_.piece_at[pair[0]], b = order_.piece_at[pair[1]];
@@ -123,6 +106,26 @@ public:
     }
 
     Result<std::vector<engine::Timing>> timings() override { return commands_[(made_ + 1) & 1]->timings(); }
+    // Of the first step; the second is the same with the two memories of contacts exchanged. Recorded and not submitted.
+    Result<StepPlan> plan() override {
+        engine::Commands commands(device_);
+        if (auto begun = commands.begin(); !begun) return begun.error();
+        commands.keepTrace();
+        Recorder recorder(commands, kernels_, b_.counts, b_.args);
+        if (auto recorded = recordStep(recorder, 0); !recorded) return recorded.error();
+        if (auto recorded = recorder.status(); !recorded) return recorded.error();
+        return planOf(commands.trace(), b_, kernels_.kernelNames());
+    }
+
+    Result<std::vector<double>> measure(uint32_t steps) override {
+        times_passes_ = true;
+        auto recorded = record();
+        auto medians = recorded ? mediansOf(steps) : Result<std::vector<double>>(recorded.error());
+        times_passes_ = false;
+        if (recorded = record(); !recorded) return recorded.error();
+        return medians;
+    }
+
     uint32_t dispatches() const override { return commands_[0]->dispatchCount(); }
 
     Result<std::vector<std::byte>> save() override {
@@ -164,8 +167,8 @@ public:
 private:
     Result<void> recordStep(Recorder& record, uint32_t parity) {
         const Step step = {settings_, b_,     b_.memory[1 - parity], b_.memory[parity],
-                           kernels_,  record, hasManyLanes(device_), settings_.contacts && bounce()};
-        record.clear({BufferView(b_.counts).sub(0, 4 * STATUS_FAILED)});
+                           kernels_,  record, hasManyLanes(device_), has(Effect::Restitution) && bounce()};
+        record.clear({b_.counts.sub(0, 4 * STATUS_FAILED)});
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
         recordIslands(step);
@@ -173,6 +176,25 @@ private:
         recordSolve(step);
         recordEnd(step);
         return {};
+    }
+
+    Result<std::vector<double>> mediansOf(uint32_t steps) {
+        std::vector<std::vector<double>> times; // of each dispatch
+        for (uint32_t k = 0; k < std::max(steps, 1u); k++) {
+            if (auto done = step(1); !done) return done.error();
+            const auto spans = commands_[(made_ + 1) & 1]->spanTimes();
+            if (!spans) return spans.error();
+            times.resize(spans->size()); // of a queue without timestamps there are none
+            for (size_t pass = 0; pass < times.size(); pass++)
+                times[pass].push_back(1000 * (*spans)[pass]);
+        }
+        std::vector<double> medians;
+        for (std::vector<double>& of_pass : times) {
+            const auto middle = of_pass.begin() + static_cast<ptrdiff_t>(of_pass.size() / 2);
+            std::ranges::nth_element(of_pass, middle);
+            medians.push_back(*middle);
+        }
+        return medians;
     }
 
     bool bounce() const {
@@ -200,7 +222,7 @@ private:
         if (!saved) return saved.error();
         const std::vector<BufferView> was = stateViews();
         const uint32_t room = std::min(needed + needed / 2, mostPairs(device_));
-        auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, settings_.sleeping);
+        auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, b_.sizes.effects);
         if (!larger) return larger.error();
         std::swap(b_, *larger);
         Upload upload;
@@ -208,7 +230,6 @@ private:
         for (size_t k = 0, at = 0; k < was.size(); at += was[k].size, k++)
             upload.add(std::span(*saved).subspan(at, was[k].size), now[k].sub(0, was[k].size));
         if (auto done = upload.send(device_); !done) return done;
-        submitted_[0] = submitted_[1] = false;
         return record();
     }
 
@@ -216,7 +237,7 @@ private:
     Result<std::vector<uint32_t>> takeStock() {
         std::vector<uint32_t> words(STATUS_WORDS);
         uint32_t steps = 0;
-        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {BufferView(b_.steps).sub(0, 4), &steps, 4}};
+        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {b_.steps.sub(0, 4), &steps, 4}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         made_ = steps;
         return words;
@@ -226,7 +247,7 @@ private:
     Result<void> forget(uint32_t body) {
         engine::Commands commands(device_);
         if (auto begun = commands.begin(); !begun) return begun;
-        commands.fill(engine::BufferView(b_.counts).sub(4 * STATUS_STOPPED_BODY, 4), 0);
+        commands.fill(b_.counts.sub(4 * STATUS_STOPPED_BODY, 4), 0);
         if (auto done = commands.submitAndWait(); !done) return done;
         return Error{ErrorCode::BadInput, "by step " + std::to_string(made_) + " the motion of body " +
                                               std::to_string(order_.body_at[body]) +
@@ -253,11 +274,13 @@ private:
 
     std::vector<BufferView> stateViews() const {
         std::vector<BufferView> views = {b_.bodies, b_.steps};
+        if (!has(Effect::Contacts)) return views;
         for (const PairMemory& memory : b_.memory)
-            for (const engine::Buffer* buffer : {&memory.count, &memory.pairs, &memory.contacts})
-                views.push_back(*buffer);
+            for (const BufferView& view : {memory.count, memory.pairs, memory.contacts})
+                views.push_back(view);
         return views;
     }
+    bool has(Effect effect) const { return b_.sizes.effects.has(effect); }
     size_t stateBytes() const {
         size_t bytes = 0;
         for (const BufferView& view : stateViews())
@@ -274,6 +297,7 @@ private:
     WorldBudget budget_;
     std::unique_ptr<engine::Commands> commands_[2];
     bool submitted_[2] = {false, false};
+    bool times_passes_ = false;
     uint64_t made_ = 0;
 };
 
@@ -290,7 +314,7 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     BodyOrder order = orderById(contents);
     WorldContents sorted = inOrder(contents, order);
     const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
-    auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, settings.sleeping);
+    auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, effectsOf(settings));
     if (!buffers) return buffers.error();
     WorldBudget given = budget;
     given.group_size = group_size;

@@ -6,6 +6,8 @@
 
 #include "engine/commands.h"
 #include "engine/device.h"
+#include "modules/brittle/dynamics/step_plan.h"
+#include "modules/brittle/dynamics/step_settings.h"
 #include "modules/brittle/dynamics/world_contents.h"
 
 #include <array>
@@ -15,25 +17,6 @@
 #include <vector>
 
 namespace brittle {
-
-struct StepSettings {
-    Double3 gravity = {0, -9.81, 0};
-    double dt = 1.0 / 60;      // s
-    uint32_t substeps = 4;     // 1 to 64
-    uint32_t iterations = 1;   // over all contacts, with push and without, in each substep: 1 to 64
-    bool contacts = true;      // without them bodies fly and fall through each other, and nothing is looked for or solved
-    double contact_hertz = 30; // of the spring that pushes overlap out, no more than an eighth of the substeps a second
-    double contact_damping = 10;
-    double push_out = 3;         // m/s, the most that overlap is pushed out with
-    double margin = 0.02;        // m: points that are still so far apart are contacts already
-    double bounce_threshold = 1; // m/s: what comes in slower does not bounce
-    uint32_t fixed_axes = 0;     // of the narrow phase; 0: all axes of both hulls
-    bool sleeping = false;       // islands that have come to rest are not solved
-    double sleep_speed = 0.05;   // m/s: what moves and turns less in a step, rests; for a body of less than half a meter, a
-                                 // tenth of its radius a second
-    double sleep_after = 0.5;    // s of rest
-    bool recycling = true;       // points are kept while bodies hardly move against each other
-};
 
 // How much there is room for; what is 0 is chosen by the contents, and grows when it is too small.
 struct WorldBudget {
@@ -71,6 +54,12 @@ public:
     // Of the last step, by stage, and how many dispatches it has.
     virtual engine::Result<std::vector<engine::Timing>> timings() = 0;
     virtual uint32_t dispatches() const = 0;
+
+    // What a step is made of, without making one: what there is room for now, that is.
+    virtual engine::Result<StepPlan> plan() = 0;
+    // Makes so many steps, at least one, with two timestamps a dispatch: the median of each, in microseconds and in the order
+    // of the plan, fills and copies left out.
+    virtual engine::Result<std::vector<double>> measure(uint32_t steps) = 0;
 
     // All that the next step depends on, as bytes; to be restored into a world of the same contents, settings and budget.
     virtual engine::Result<std::vector<std::byte>> save() = 0;

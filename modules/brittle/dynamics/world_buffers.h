@@ -7,21 +7,25 @@
 #include "modules/brittle/dynamics/broad_phase.h"
 #include "modules/brittle/dynamics/narrow_phase.h"
 #include "modules/brittle/dynamics/world_contents.h"
+#include "modules/brittle/effects/effect_set.h"
 #include "shaders-spirv/shared/solver.h"
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace brittle {
 
 struct WorldSizes {
     uint32_t bodies = 0, pieces = 0, pairs = 0, contacts = 0;
-    bool sleeping = false;
+    EffectSet effects;
 };
 
 // What a step makes and the next one reads; two of them take turns.
 struct PairMemory {
-    engine::Buffer pairs, count, contacts; // uvec2 sorted, one word, gpu::ContactMemory a pair
+    engine::BufferView pairs, count, contacts; // uvec2 sorted, one word, gpu::ContactMemory a pair
 };
 
 // Made anew in every step.
@@ -33,14 +37,24 @@ struct StepBuffers {
     BroadPhaseScratch broad_phase;
 };
 
+// What a view is for, and which effect asked for it.
+struct NamedBuffer {
+    std::string name;
+    engine::BufferView view;
+    VkDeviceSize bytes = 0;         // 0: nobody asked for it, and the view is that of the dummy
+    std::optional<Effect> asked_by; // none: every world has it
+};
+
 struct WorldBuffers {
-    engine::Buffer hull_records, hull_vertices, hull_faces, hull_corners, hull_edges;
-    engine::Buffer pieces, bodies, shapes;
-    engine::Buffer counts, args; // as a fracture event's (shared/fracture.h), indices in shared/solver.h
-    engine::Buffer steps;        // shared/solver.h, STEPS_*
+    engine::BufferView hull_records, hull_vertices, hull_faces, hull_corners, hull_edges;
+    engine::BufferView pieces, bodies, shapes;
+    engine::BufferView counts, args; // as a fracture event's (shared/fracture.h), indices in shared/solver.h
+    engine::BufferView steps;        // shared/solver.h, STEPS_*
     std::array<PairMemory, 2> memory;
-    std::unique_ptr<engine::ScratchArena> arena;
     StepBuffers step;
+    std::vector<NamedBuffer> named; // all of these, the dummy among them
+    std::vector<std::unique_ptr<engine::Buffer>> owned;
+    std::unique_ptr<engine::ScratchArena> arena;
     WorldSizes sizes;
     uint32_t movers = 0; // bodies that are not fixed
     BroadPhaseBudget broad_phase;
@@ -51,9 +65,10 @@ struct WorldBuffers {
 // The most pairs there can be room for: all of what the solver knows of them is bound at once.
 uint32_t mostPairs(const engine::Device& device);
 
-// Fills what the contents say and clears the rest; pairs: at most mostPairs; contacts: 0 for as many as pairs. Errors:
-// Capacity, with the list that the device cannot bind; Device.
+// Fills what the contents say and clears the rest; pairs: at most mostPairs; contacts: 0 for as many as pairs. What no effect
+// of the set asks for has no bytes of its own: all of that is one dummy of 16 bytes. Errors: Capacity, with the list that the
+// device cannot bind; Device.
 engine::Result<WorldBuffers> makeWorldBuffers(engine::Device& device, const WorldContents& contents, uint32_t pairs,
-                                              uint32_t contacts, bool sleeping);
+                                              uint32_t contacts, EffectSet effects);
 
 } // namespace brittle

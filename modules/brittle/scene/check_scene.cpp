@@ -1,5 +1,6 @@
 #include "modules/brittle/scene/check_scene.h"
 
+#include "modules/brittle/effects/effect_set.h"
 #include "modules/brittle/mesh/format.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "modules/brittle/scene/body_shape.h"
@@ -170,6 +171,13 @@ Problem checkCamera(const CameraDescription& camera) {
     return {};
 }
 
+Problem checkEffects(const SceneDescription& scene) {
+    for (const std::string& effect : scene.effects)
+        if (const std::string refusal = refusalOf(effect); !refusal.empty())
+            return problemAt({SectionId::Scene, 0, ""}, "effects", refusal);
+    return {};
+}
+
 // Where there is one of each.
 Problem checkSingles(SceneDescription& scene) {
     for (const SceneSection& section : sceneSections()) {
@@ -177,6 +185,7 @@ Problem checkSingles(SceneDescription& scene) {
         if (auto problem = checkValues({section.id, 0, ""}, ownerOf(scene, section.id, 0))) return problem;
     }
     if (scene.bodies.empty()) return problemAt({SectionId::Scene, 0, ""}, "", "nothing is in the scene; give it a [[body]]");
+    if (auto problem = checkEffects(scene)) return problem;
     if (auto problem = checkBudgets(scene)) return problem;
     return checkCamera(scene.camera);
 }

@@ -137,6 +137,8 @@ struct SceneDescription {
     std::string comment;
     Double3 gravity = {0, -9.81, 0};
     std::vector<std::string> effects = {"gravity", "contacts", "friction"};
+    double air_density = 1.225;
+    double drag_coefficient = 0.47;
     StepDescription step;
     BudgetDescription budgets;
     CameraDescription camera;

@@ -1,5 +1,7 @@
 #include "modules/brittle/scene/scene_keys.h"
 
+#include "modules/brittle/effects/effect_set.h"
+
 #include <algorithm>
 #include <type_traits>
 
@@ -51,8 +53,6 @@ constexpr std::string_view kPatterns[] = {"uniform", "impact", "paper"};
 constexpr std::string_view kSolvers[] = {"soft", "hard"};
 constexpr std::string_view kAxes[] = {"all", "fixed"};
 constexpr std::string_view kMaterials[] = {"glass", "porcelain", "concrete", "brick", "ice", "stone"};
-constexpr std::string_view kEffects[] = {"gravity",         "contacts",   "friction", "restitution",     "ccd",    "sleeping",
-                                         "impact_fracture", "refracture", "dust",     "debris_lifetime", "events", "drag"};
 constexpr uint32_t kDirections[] = {6, 14, 26, 62};
 
 constexpr Allowed kAnything;
@@ -72,8 +72,12 @@ constexpr SceneKey kSceneKeys[] = {
     {"name", at<&SceneDescription::name>, kAnything, "", "what the scene is called"},
     {"comment", at<&SceneDescription::comment>, kAnything, "", "what it is about; the first line is shown in lists"},
     {"gravity", at<&SceneDescription::gravity>, from(-1e4, 1e4), "m/s2", "acts where `effects` has gravity"},
-    {"effects", at<&SceneDescription::effects>, oneOf(kEffects), "",
-     "what the scene calls for; whatever is not in the list costs nothing"},
+    {"effects", at<&SceneDescription::effects>, oneOf(kEffectNames), "",
+     "what the scene calls for; what is neither in the list nor needed by what is costs nothing; bonds and stress are not "
+     "there yet"},
+    {"air_density", at<&SceneDescription::air_density>, from(0, 1e4), "kg/m3", "acts where `effects` has drag"},
+    {"drag_coefficient", at<&SceneDescription::drag_coefficient>, from(0, 100), "",
+     "of the ball around a body that air slows it as; acts where `effects` has drag"},
 };
 
 constexpr SceneKey kStepKeys[] = {
@@ -218,7 +222,6 @@ constexpr SceneSection kSections[] = {
 std::span<const SceneSection> sceneSections() { return kSections; }
 const SceneSection& sectionOf(SectionId id) { return kSections[static_cast<size_t>(id)]; }
 std::span<const std::string_view> shapeNames() { return kShapes; }
-std::span<const std::string_view> effectNames() { return kEffects; }
 std::span<const std::string_view> materialNames() { return kMaterials; }
 
 const SceneKey* findKey(const SceneSection& section, std::string_view name) {

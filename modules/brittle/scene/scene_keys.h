@@ -67,7 +67,6 @@ const ShapeDescription* shapeOf(const void* owner, SectionId id);
 ValueRef defaultOf(const SceneSection& section, const SceneKey& key);
 
 std::span<const std::string_view> shapeNames(); // by ShapeKind
-std::span<const std::string_view> effectNames();
 std::span<const std::string_view> materialNames(); // the built-in ones
 
 // "a number from 0 to 1", "three numbers, each above 0 and at most 1e+06 (m)", "one of box, ball".

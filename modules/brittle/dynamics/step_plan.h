@@ -1,0 +1,56 @@
+// What a step of a world is made of: its passes in order, what each reads and writes, and which effect asked for which bytes.
+#pragma once
+
+#include "engine/commands.h"
+#include "modules/brittle/dynamics/world_buffers.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace brittle {
+
+// How many workgroups a pass has: known when it is recorded, or by a count that the device has published.
+enum class PassSize : uint8_t { Lanes, Groups, LaneEach, BlockEach, GroupEach, Arguments, Fill, Copy };
+std::string_view nameOf(PassSize size);
+
+struct PassBuffer {
+    std::string slot;   // as the kernel calls it; "" of fills and copies
+    std::string buffer; // one of StepPlan::buffers
+    bool reads = false, writes = false;
+    bool operator==(const PassBuffer&) const = default;
+};
+
+struct Pass {
+    std::string stage, kernel; // "fill" and "copy" are no kernels
+    std::vector<std::pair<std::string, uint32_t>> constants;
+    PassSize size = PassSize::Groups;
+    uint32_t count = 0;     // lanes or workgroups, where they are known
+    std::string counted_by; // the count, or the buffer with the arguments, where they are not
+    std::vector<PassBuffer> buffers;
+    bool operator==(const Pass&) const = default;
+
+    bool isDispatch() const { return size != PassSize::Fill && size != PassSize::Copy; }
+};
+
+struct PlannedBuffer {
+    std::string name;
+    uint64_t bytes = 0;             // 0: a binding of this name is the dummy
+    std::optional<Effect> asked_by; // none: every world has it
+    bool operator==(const PlannedBuffer&) const = default;
+};
+
+struct StepPlan {
+    EffectSet effects;
+    std::vector<Pass> passes;
+    std::vector<PlannedBuffer> buffers;
+    std::vector<std::string> kernels; // that are loaded
+
+    uint64_t bytes() const;
+    uint64_t bytesOf(std::optional<Effect> effect) const;
+    bool operator==(const StepPlan&) const = default;
+};
+
+StepPlan planOf(std::span<const engine::TracedCommand> trace, const WorldBuffers& buffers, std::vector<std::string> kernels);
+
+} // namespace brittle

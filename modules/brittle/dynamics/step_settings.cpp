@@ -1,0 +1,69 @@
+#include "modules/brittle/dynamics/step_settings.h"
+
+#include "shaders-spirv/shared/effects.h"
+#include "shaders-spirv/shared/fracture.h"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace brittle {
+namespace {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::Result;
+
+// The bits of what a kernel multiplies by (lib/air_drag.glsl).
+uint32_t dragWord(const StepSettings& s) {
+    return std::bit_cast<uint32_t>(static_cast<float>(0.5 * s.air_density * s.drag_coefficient * std::numbers::pi));
+}
+
+} // namespace
+
+Result<void> checkSettings(const StepSettings& s) {
+    const auto refuse = [](const std::string& why) { return Error{ErrorCode::BadInput, "world: " + why}; };
+    for (const double g : s.gravity)
+        if (!(std::fabs(g) <= 1e4)) return refuse("gravity is no number or beyond 1e4 m/s2");
+    if (!(s.dt >= 1e-6 && s.dt <= 1)) return refuse("a step takes " + std::to_string(s.dt) + " s; give it 1e-6 to 1");
+    if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
+    if (s.iterations < 1 || s.iterations > 64) return refuse(std::to_string(s.iterations) + " iterations; give 1 to 64");
+    if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
+        return refuse("contacts of that frequency or damping; give 0 to 1e4");
+    if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
+        return refuse("a push-out or bounce threshold that is negative or no number");
+    if (!(s.sleep_speed >= 0 && s.sleep_after >= 0))
+        return refuse("sleep below a speed or after a time that is negative or no number");
+    if (!(s.air_density >= 0 && s.air_density <= 1e4) || !(s.drag_coefficient >= 0 && s.drag_coefficient <= 100))
+        return refuse("a density of the air or a drag coefficient that is out of range; give 0 to 1e4 kg/m3, 0 to 100");
+    if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
+    return {};
+}
+
+EffectSet effectsOf(const StepSettings& s) {
+    EffectSet set;
+    const auto addIf = [&](bool asked_for, Effect effect) {
+        if (asked_for) set.add(effect);
+    };
+    addIf(s.gravity != Double3{0, 0, 0}, Effect::Gravity);
+    addIf(s.contacts, Effect::Contacts);
+    addIf(s.contacts && s.friction, Effect::Friction);
+    addIf(s.contacts && s.restitution, Effect::Restitution);
+    addIf(s.contacts && s.ccd, Effect::Ccd);
+    addIf(s.contacts && s.sleeping, Effect::Sleeping);
+    addIf(s.drag, Effect::Drag);
+    return set;
+}
+
+std::vector<engine::SpecConstant> kernelConstants(const StepSettings& settings, uint32_t group_size) {
+    const EffectSet effects = effectsOf(settings);
+    const auto on = [&](Effect effect) { return effects.has(effect) ? 1u : 0u; };
+    return {{FLAT_SIZE_ID, group_size},
+            {CONTACTS_ID, on(Effect::Contacts)},
+            {FRICTION_ID, on(Effect::Friction)},
+            {CCD_ID, on(Effect::Ccd)},
+            {DRAG_ID, effects.has(Effect::Drag) ? dragWord(settings) : 0}};
+}
+
+} // namespace brittle

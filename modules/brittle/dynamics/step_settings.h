@@ -1,0 +1,47 @@
+// How a world is stepped, and which effects that makes.
+#pragma once
+
+#include "engine/kernel.h"
+#include "modules/brittle/effects/effect_set.h"
+#include "modules/brittle/mesh/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace brittle {
+
+struct StepSettings {
+    Double3 gravity = {0, -9.81, 0};
+    double dt = 1.0 / 60;      // s
+    uint32_t substeps = 4;     // 1 to 64
+    uint32_t iterations = 1;   // over all contacts, with push and without, in each substep: 1 to 64
+    bool contacts = true;      // without them bodies fly and fall through each other, and nothing is looked for or solved
+    double contact_hertz = 30; // of the spring that pushes overlap out, no more than an eighth of the substeps a second
+    double contact_damping = 10;
+    double push_out = 3;         // m/s, the most that overlap is pushed out with
+    double margin = 0.02;        // m: points that are still so far apart are contacts already
+    double bounce_threshold = 1; // m/s: what comes in slower does not bounce
+    uint32_t fixed_axes = 0;     // of the narrow phase; 0: all axes of both hulls
+    bool friction = true;        // these four act where contacts are
+    bool restitution = true;
+    bool ccd = true;            // bodies that are fast for their size are held back where they would go too deep
+    bool sleeping = false;      // islands that have come to rest are not solved
+    double sleep_speed = 0.05;  // m/s: what moves and turns less in a step, rests; for a body of less than half a meter, a
+                                // tenth of its radius a second
+    double sleep_after = 0.5;   // s of rest
+    bool recycling = true;      // points are kept while bodies hardly move against each other
+    bool drag = false;          // air slows bodies as it would the balls around them (lib/air_drag.glsl)
+    double air_density = 1.225; // kg/m3
+    double drag_coefficient = 0.47;
+};
+
+// BadInput for what is out of range.
+engine::Result<void> checkSettings(const StepSettings& settings);
+
+// What a world of these settings has: buffers, passes and the code of kernels follow from it.
+EffectSet effectsOf(const StepSettings& settings);
+
+// What all kernels of such a world are specialized with (shaders-spirv/shared/effects.h).
+std::vector<engine::SpecConstant> kernelConstants(const StepSettings& settings, uint32_t group_size);
+
+} // namespace brittle

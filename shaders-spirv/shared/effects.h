@@ -1,0 +1,10 @@
+// Which specialization constants switch effects, beside those of shared/fracture.h.
+#ifndef EFFECTS_H
+#define EFFECTS_H
+
+#define CONTACTS_ID 10 /* 0: off */
+#define FRICTION_ID 11
+#define CCD_ID 12
+#define DRAG_ID 13 /* the bits of a float: half of density times coefficient times pi, kg/m3; 0: off */
+
+#endif
