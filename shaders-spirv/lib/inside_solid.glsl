@@ -1,25 +1,8 @@
-// Whether a place on the event's grid lies inside the solid: the winding number along +z, exact, with the point moved by
-// (eps, eps^2) in x and y against ties.
+// Whether a place on the event's grid lies inside the solid: its winding number (lib/winding.glsl).
 //
 // Wants grid_vertices, triangles, column_start, column_triangles and the push constants low and high declared, and
 // lib/wide.glsl.
-
-// On which side of a -> b the moved point lies; 0 only where a and b fall together.
-int sideOfEdge(ivec3 a, ivec3 b, ivec3 p) {
-    int64_t s = int64_t(b.x - a.x) * int64_t(p.y - a.y) - int64_t(b.y - a.y) * int64_t(p.x - a.x);
-    return !isZero(s) ? signOf(s) : (b.y != a.y ? sign(a.y - b.y) : sign(b.x - a.x));
-}
-
-int windingAbove(ivec3 a, ivec3 b, ivec3 c, ivec3 p) {
-    int s = sideOfEdge(a, b, p);
-    bool crossed = s != 0 && sideOfEdge(b, c, p) == s && sideOfEdge(c, a, p) == s;
-    ivec3 u = b - a, w = c - a, d = p - a;
-    int64_t nx = int64_t(u.y) * int64_t(w.z) - int64_t(u.z) * int64_t(w.y);
-    int64_t ny = int64_t(u.z) * int64_t(w.x) - int64_t(u.x) * int64_t(w.z);
-    int64_t nz = int64_t(u.x) * int64_t(w.y) - int64_t(u.y) * int64_t(w.x);
-    int height = wideSign(wideAdd(wideAdd(wideMul(nx, int64_t(d.x)), wideMul(ny, int64_t(d.y))), wideMul(nz, int64_t(d.z))));
-    return crossed && height * s < 0 ? s : 0;
-}
+#include "lib/winding.glsl"
 
 // Some column may have no triangles at all: there is nothing inside of it.
 uint columnOf(ivec3 p) { return uint((p.y - low.y) / low.w * high.w + (p.x - low.x) / low.w); }

@@ -15,14 +15,8 @@ layout(push_constant) uniform Push {
     uint furthest; // place in the mesh, from the impact
     uint tallest;  // column: the most that lies between the lowest and the highest z of one
 };
-#include "lib/hash.glsl"
+#include "lib/draw.glsl"
 #include "lib/inside_solid.glsl"
-
-uint draw(uint site, uint attempt, uint axis) {
-    return mixed(mixed(mixed(mixed(seed_low + 0x9e3779b9u) ^ seed_high) + site * 0x85ebca6bu) ^ (attempt * 4u + axis + 1u));
-}
-
-uint below(uint random, uint n) { return uint((uint64_t(random) * uint64_t(n)) >> 32); }
 
 void place(uint site, ivec3 p) {
     raw_sites[3u * site] = uint(p.x);

@@ -27,6 +27,8 @@ struct Gathered {
     std::vector<brittle::Index3> triangles, triangle_edges;
     std::vector<std::array<float, 15>> attributes;
     std::vector<std::array<uint32_t, 2>> edges;
+    std::vector<brittle::Int3> sites;
+    std::vector<uint32_t> placed;
 };
 
 template <class T>
@@ -43,16 +45,22 @@ public:
         auto arena = engine::ScratchArena::create(device(), 64 << 20, "gather");
         EXPECT_TRUE(arena);
         const auto counts = arena->take(4 * STATUS_WORDS), args = arena->take(36 * COUNT_TOTAL);
-        const auto records = arena->take(32 * breaking.size()), pool = arena->take(32 * set.vertices.size());
+        const auto records = arena->take(sizeof(gpu::BreakingRecord) * breaking.size()),
+                   pool = arena->take(32 * set.vertices.size());
         const brittle::GatherBuffers b = brittle::layOutGather(*arena, room_);
         EXPECT_TRUE(arena->status());
         Gathered out;
-        uint32_t corners = 0;
-        for (const auto& record : breaking)
+        uint32_t corners = 0, sites = 0;
+        for (const auto& record : breaking) {
             corners += record.range.y + record.range.z;
+            sites += record.sites.y;
+        }
+        sites_ = arena->take(12ull * sites);
+        placed_ = arena->take(4ull * sites);
         out.counts[COUNT_BREAKING] = static_cast<uint32_t>(breaking.size());
         out.counts[COUNT_SOUP_TRIANGLES] = corners / 3;
         out.counts[COUNT_SOUP_CORNERS] = corners;
+        out.counts[COUNT_ASKED_SITES] = sites;
         run(out, breaking, set, records, pool, b, counts, args);
         read(out, b, counts);
         return out;
@@ -74,15 +82,16 @@ private:
         upload.copy(commands, *staging);
         brittle::Recorder recorder(commands, kernels_, counts, args);
         recorder.clear({args});
-        for (const uint32_t count : {COUNT_BREAKING, COUNT_SOUP_TRIANGLES, COUNT_SOUP_CORNERS})
+        for (const uint32_t count : {COUNT_BREAKING, COUNT_SOUP_TRIANGLES, COUNT_SOUP_CORNERS, COUNT_ASKED_SITES})
             recorder.publish(count, 1u << 30);
         brittle::recordGather(recorder, room_, b, records, pool);
+        brittle::recordBreakingSites(recorder, b, records, sites_, placed_);
         ASSERT_TRUE(recorder.status()) << recorder.status().error().message;
         const auto done = commands.submitAndWait();
         ASSERT_TRUE(done) << done.error().message;
     }
 
-    static void read(Gathered& out, const brittle::GatherBuffers& b, const engine::BufferView& counts) {
+    void read(Gathered& out, const brittle::GatherBuffers& b, const engine::BufferView& counts) const {
         const brittle::Fetch first[] = {{counts, out.counts.data(), 4 * STATUS_WORDS}};
         ASSERT_TRUE(brittle::fetch(device(), first));
         const auto& n = out.counts;
@@ -92,12 +101,15 @@ private:
                                        into(out.triangles, n[COUNT_MESH_TRIANGLES], b.mesh_triangles),
                                        into(out.triangle_edges, n[COUNT_MESH_TRIANGLES], b.triangle_edges),
                                        into(out.attributes, n[COUNT_MESH_TRIANGLES], b.corner_attributes),
-                                       into(out.edges, n[COUNT_MESH_EDGES], b.mesh_edges)};
+                                       into(out.edges, n[COUNT_MESH_EDGES], b.mesh_edges),
+                                       into(out.sites, n[COUNT_ASKED_SITES], sites_),
+                                       into(out.placed, n[COUNT_ASKED_SITES], placed_)};
         ASSERT_TRUE(brittle::fetch(device(), rest));
     }
 
     brittle::GatherRoom room_;
     engine::KernelLibrary kernels_;
+    engine::BufferView sites_, placed_;
 };
 
 constexpr float kScale = 0.5f;
@@ -207,6 +219,90 @@ void expectAsOnTheHost(const Breaking& breaking) {
 
 TEST(SmallGather, MakesTheMeshThatTheHostWouldMake) { expectAsOnTheHost(breakingFragments("builtin:ring", 7)); }
 TEST(Gather, MakesTheMeshesOfManyAtOnce) { expectAsOnTheHost(breakingFragments("builtin:icosphere", 200)); }
+
+// Grid coordinates of an object's place.
+gpu::ivec4 onGrid(const brittle::Float3& p, int32_t last) {
+    const auto snap = [](float x) { return static_cast<int32_t>(std::nearbyint(double{x} * 0x1p23)) + (1 << 23); };
+    return {snap(p[0]), snap(p[1]), snap(p[2]), last};
+}
+
+// A blow on the first vertex of each object, which is to have so many sites.
+void hit(Breaking& breaking, uint32_t sites, int32_t contact_radius, int32_t seed) {
+    for (size_t k = 0; k < breaking.records.size(); ++k) {
+        const PreparedMesh& object = breaking.prepared[k];
+        gpu::BreakingRecord& r = breaking.records[k];
+        brittle::Float3 low = scaledPlace(object, 0), high = low;
+        for (uint32_t v = 0; v < object.mesh.positions.size(); ++v)
+            for (size_t c = 0; c < 3; ++c) {
+                low[c] = std::min(low[c], scaledPlace(object, v)[c]);
+                high[c] = std::max(high[c], scaledPlace(object, v)[c]);
+            }
+        const double furthest =
+            std::hypot(double{high[0]} - low[0], double{high[1]} - low[1], double{high[2]} - low[2]) * 0x1p23;
+        r.impact = onGrid(scaledPlace(object, 0), contact_radius);
+        r.low = onGrid(low, static_cast<int32_t>(furthest) + 1);
+        r.high = onGrid(high, seed);
+        r.sites = {static_cast<uint32_t>(k) * sites, sites, 0, 0};
+    }
+}
+
+reference::Triangles trianglesOf(const PreparedMesh& object) {
+    reference::Triangles triangles;
+    for (const brittle::Index3& t : object.mesh.triangles) {
+        reference::Triangle& to = triangles.emplace_back();
+        for (size_t k = 0; k < 3; ++k) {
+            const brittle::Float3 p = scaledPlace(object, t[k]);
+            to[k] = {p[0], p[1], p[2]};
+        }
+    }
+    return triangles;
+}
+
+reference::Point inUnits(const brittle::Int3& site) {
+    const auto unit = [](int32_t x) { return ((x & TILE_MASK) - (1 << 23)) * 0x1p-23; };
+    return {unit(site[0]), unit(site[1]), unit(site[2])};
+}
+
+TEST(SmallGather, PlacesSitesInsideTheirObjects) {
+    Breaking breaking = breakingFragments("builtin:ring", 7);
+    hit(breaking, 20, 1 << 18, 5);
+    GatherDevice device(brittle::roomFor(7, breaking.corners / 3));
+    const Gathered out = device.gather(breaking.records, breaking.set);
+    ASSERT_EQ(out.sites.size(), 20 * breaking.records.size());
+    std::set<brittle::Int3> seen;
+    for (size_t s = 0; s < out.sites.size(); ++s) {
+        const size_t object = s / 20;
+        EXPECT_EQ(out.placed[s], 1u);
+        EXPECT_EQ(static_cast<size_t>((out.sites[s][1] >> TILE_BITS) * TILES_IN_ROW + (out.sites[s][0] >> TILE_BITS)), object);
+        EXPECT_GT(reference::windingNumber(trianglesOf(breaking.prepared[object]), inUnits(out.sites[s])), 0.5) << s;
+        seen.insert(out.sites[s]);
+    }
+    EXPECT_EQ(seen.size(), out.sites.size());
+    EXPECT_EQ(device.gather(breaking.records, breaking.set).sites, out.sites);
+}
+
+// A density that is even up to r0 and falls as r^-4 beyond, in a ball of radius R r0 that is hit: of a sphere of radius r about
+// the blow a share of (1 - r / (2 R)) / 2 lies in it.
+TEST(Gather, SitesCrowdAboutTheBlow) {
+    Breaking breaking = breakingFragments("builtin:icosphere", 1);
+    constexpr uint32_t kSites = 4000;
+    constexpr int32_t kRadius = 1 << 18;
+    hit(breaking, kSites, kRadius, 11);
+    GatherDevice device(brittle::roomFor(1, breaking.corners / 3));
+    const Gathered out = device.gather(breaking.records, breaking.set);
+    const gpu::ivec4& impact = breaking.records[0].impact;
+    double core = 0, near = 0, far = 0;
+    for (const brittle::Int3& site : out.sites) {
+        const double away = std::hypot(site[0] - impact.x, site[1] - impact.y, site[2] - impact.z) / kRadius;
+        (away <= 1 ? core : away <= 2 ? near : far) += 1.0 / kSites;
+    }
+    const double ball = 0.5 * 0x1p23 / kRadius;
+    const double in_core = 1.0 / 3 - 1 / (8 * ball), in_near = 0.5 - std::log(2.0) / (2 * ball),
+                 in_far = 0.5 - 1 / (2 * ball) - std::log(ball) / (2 * ball), all = in_core + in_near + in_far;
+    EXPECT_NEAR(core, in_core / all, 0.03);
+    EXPECT_NEAR(near, in_near / all, 0.03);
+    EXPECT_NEAR(far, in_far / all, 0.03);
+}
 
 TEST(SmallGather, OfNothingIsNothing) {
     GatherDevice device(brittle::roomFor(4, 100));

@@ -89,4 +89,10 @@ void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers&
     record.commands().endLabel();
 }
 
+void recordBreakingSites(Recorder& record, const GatherBuffers& b, engine::BufferView breaking, engine::BufferView raw_sites,
+                         engine::BufferView placed) {
+    record.runGroups("place_breaking", record.groupsOf(COUNT_ASKED_SITES), engine::NoPush{},
+                     {record.counts(), breaking, b.grid_vertices, b.mesh_triangles, b.triangle_numbers, raw_sites, placed});
+}
+
 } // namespace brittle

@@ -36,4 +36,9 @@ GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room);
 void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers& b, engine::BufferView breaking,
                   engine::BufferView vertices);
 
+// After that: `raw_sites`, three words each on the grids of their objects in their tiles, and `placed`, a word each, 0 for a
+// site that found no place. Wants COUNT_ASKED_SITES published. Densities are those of Pattern::Impact.
+void recordBreakingSites(Recorder& record, const GatherBuffers& b, engine::BufferView breaking, engine::BufferView raw_sites,
+                         engine::BufferView placed);
+
 } // namespace brittle
