@@ -2,8 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
-#include "shared/material.h"
-#include "lib/hash.glsl"
+#include "lib/breaking_laws.glsl"
 
 FLAT_KERNEL;
 READS(0, MaterialCard, cards);
@@ -18,7 +17,6 @@ layout(push_constant) uniform Push {
 void main() {
     uint k = flatIndex();
     if (k >= length) return;
-    uint hash = mixed(mixed(mixed(seed_low + 0x9e3779b9u) ^ seed_high) + k * 0x85ebca6bu);
-    float chance = (float(hash >> CHANCE_SHIFT) + 0.5) * CHANCE_STEP;
-    strengths[k] = vec2(chance, cards[0].elastic.w * pow(-log(chance) / volume, cards[0].cracks.x));
+    float chance = chanceOf(seed_low, seed_high, k);
+    strengths[k] = vec2(chance, strengthOf(cards[0], volume, chance));
 }
