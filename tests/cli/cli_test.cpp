@@ -193,6 +193,18 @@ TEST_F(Cli, AnUnwritableOutputIsRefused) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
+TEST_F(Cli, NamesThatPromiseAnotherFormatAreRefused) {
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{path("a.txt")}, {path("a.glb"), "--picture", path("a.jpg")}}) {
+        std::vector<std::string> arguments = {"shatter", "builtin:cube", "-o"};
+        arguments.insert(arguments.end(), names.begin(), names.end());
+        const Outcome run = runProgram("brittle", arguments);
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        EXPECT_NE(run.err.find("let its name end in"), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(names.front()));
+    }
+}
+
 // By whatever name, through whatever link.
 TEST_F(Cli, NoOutputReplacesAnInput) {
     const std::string model = path("model.off"), link = path("link.off"), sites = path("sites.txt");

@@ -234,6 +234,7 @@ TEST_F(SimulateCli, RefusesWhatIsWrongInOneLine) {
     expectRefused(simulate({"card_hous", "--json"}), 2, "did you mean 'card_house'?");
     expectRefused(simulate({path("none.toml"), "--json"}), 2, "no such file");
     expectRefused(simulate({"stack_10", "-o", path("a.mp5")}), 2, ".glb, .png and .mp4");
+    expectRefused(simulate({"stack_10", "-o", path("a_%04d.glb")}), 2, "only pictures are numbered");
     expectRefused(simulate({"stack_10", "-o", path("no/folder.glb")}), 2, "cannot be written");
     expectRefused(simulate({"stack_10", "-o", path("no/folder()%d.png")}), 2, "cannot be written");
     expectRefused(simulate({"stack_10", "-o", path("a.glb"), "--seconds", "nan"}), 2, "--seconds");

@@ -132,21 +132,21 @@ Result<std::unique_ptr<MotionOutput>> openNumbered(const NumberedName& name, dou
     return std::unique_ptr<MotionOutput>(std::make_unique<PicturesOutput>(name, fps));
 }
 
+} // namespace
+
 std::string endingOf(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
 }
 
-} // namespace
-
 Result<std::unique_ptr<MotionOutput>> MotionOutput::create(const std::string& path, double fps) {
     const std::string ending = endingOf(path);
+    const auto numbered = NumberedName::parse(path);
+    if (numbered && ending != ".png")
+        return engine::Error{engine::ErrorCode::BadInput, path + ": only pictures are numbered, and end in .png"};
     if (ending == ".glb") return openOutput<GlbOutput>(path, fps);
-    if (ending == ".png") {
-        const auto numbered = NumberedName::parse(path);
-        return numbered ? openNumbered(*numbered, fps) : openOutput<PictureOutput>(path);
-    }
+    if (ending == ".png") return numbered ? openNumbered(*numbered, fps) : openOutput<PictureOutput>(path);
     if (ending == ".mp4") {
         if (auto there = Film::isPossible(); !there) return there.error();
         return openOutput<FilmOutput>(path, fps);

@@ -42,4 +42,7 @@ public:
     virtual engine::Result<void> commit() = 0; // only now it is there
 };
 
+// Of a file's name, in small letters, with its dot; empty where it has none.
+std::string endingOf(const std::string& path);
+
 } // namespace cli

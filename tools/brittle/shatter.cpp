@@ -87,12 +87,18 @@ engine::Result<ShatterOutcome> Run::all() {
     return std::move(outcome_);
 }
 
+// A name without any ending is whatever is written to it.
+bool mayEndIn(const std::string& path, const std::string& wanted) {
+    const std::string ending = endingOf(path);
+    return ending.empty() || ending == wanted;
+}
+
 engine::Result<void> Run::checkPathsApart() const {
     const auto refused = [](const std::string& path, const std::string& why) {
         return engine::Error{engine::ErrorCode::BadInput, path + ": " + why};
     };
     const std::string &picture = options_.picture, &of_colliders = options_.collider_picture;
-    const std::string ending = std::filesystem::path(options_.output).extension().string();
+    const std::string ending = endingOf(options_.output);
     if (!options_.drop && (ending == ".png" || ending == ".mp4"))
         return refused(options_.output, "fragments are written as a GLB file; --picture draws them, --drop lets them fall");
     if (sameFile(picture, options_.output) || sameFile(of_colliders, options_.output))
@@ -104,6 +110,10 @@ engine::Result<void> Run::checkPathsApart() const {
         for (const std::string& input : {options_.model, options_.sites_file})
             if (sameFile(output, input))
                 return refused(output, "is read as input and would be overwritten; write to another file");
+    if (!options_.drop && !mayEndIn(options_.output, ".glb"))
+        return refused(options_.output, "fragments are written as a GLB file; let its name end in .glb");
+    for (const std::string& drawn : {picture, of_colliders})
+        if (!mayEndIn(drawn, ".png")) return refused(drawn, "pictures are PNG files; let its name end in .png");
     return {};
 }
 
