@@ -16,6 +16,7 @@ READS(4, uvec4, triangle_numbers); // of triangles as they are drawn: own, of ea
 WRITES(5, uint, raw_sites);
 WRITES(6, uint, placed);
 uint seed_low, seed_high;
+#include "lib/breaking_corner.glsl"
 #include "lib/draw.glsl"
 #include "lib/draw_impact.glsl"
 #include "lib/winding.glsl"
@@ -24,17 +25,6 @@ const uint kTurnBudget = 56000u; // of the 65,535 that Mesa's software device al
 
 shared int winding_sum;
 uint lane, budget;
-
-// The object that a site is asked of: the last that begins at or before it.
-uint objectOfSite(uint site) {
-    uint low = 0u, high = max(counts[COUNT_BREAKING], 1u) - 1u;
-    for (uint step = 0u; step < 9u && low < high; step++) {
-        uint middle = (low + high + 1u) / 2u;
-        if (breaking[middle].sites.x <= site) low = middle;
-        else high = middle - 1u;
-    }
-    return low;
-}
 
 // In the mesh, where triangles of one object are those of its own surface and those of earlier cuts.
 struct Ranges {
@@ -67,19 +57,18 @@ bool isInside(ivec3 p, Ranges r) {
     return inside;
 }
 
-bool drawEvenly(uint site, uint attempt, BreakingRecord object, out ivec3 p) {
+ivec3 drawEvenly(uint site, uint attempt, BreakingRecord object) {
+    ivec3 p;
     for (uint k = 0u; k < 3u; k++)
         p[k] = object.low[k] + int(below(draw(site, attempt, k), uint(object.high[k] - object.low[k] + 1)));
-    return true;
+    return p;
 }
 
 bool drawFor(uint site, uint attempt, BreakingRecord object, out ivec3 p) {
-    ivec3 about, even;
-    bool found = drawAbout(site, attempt, object.impact, uint(object.low.w), about);
-    drawEvenly(site, attempt, object, even);
-    p = attempt < IMPACT_DRAWS ? about : even;
-    bool in_box = all(greaterThanEqual(p, object.low.xyz)) && all(lessThanEqual(p, object.high.xyz));
-    return in_box && (found || attempt >= IMPACT_DRAWS);
+    ivec3 about;
+    bool found = drawAbout(site, attempt, object.impact, uint(object.low.w), about), even = attempt >= IMPACT_DRAWS;
+    p = even ? drawEvenly(site, attempt, object) : about;
+    return (even || found) && all(greaterThanEqual(p, object.low.xyz)) && all(lessThanEqual(p, object.high.xyz));
 }
 
 void main() {

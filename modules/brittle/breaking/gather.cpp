@@ -1,19 +1,18 @@
 #include "modules/brittle/breaking/gather.h"
 
+#include "modules/brittle/fracture/pools.h"
+
 #include <algorithm>
-#include <bit>
 
 namespace brittle {
 namespace {
-
-uint64_t tableSize(const GatherRoom& room) { return std::bit_ceil(std::max<uint64_t>(2ull * room.corners(), 64)); }
 
 // The first of all that are the same, and flags of those that are the first.
 void recordFirsts(Recorder& record, std::string_view weld, uint32_t count, engine::BufferView keys, const GatherRoom& room,
                   const GatherBuffers& b) {
     struct Push {
         uint32_t length, length_count, table_mask;
-    } push = {0, count, static_cast<uint32_t>(tableSize(room) - 1)};
+    } push = {0, count, tableSize(room.corners()) - 1};
     record.clear({b.table});
     record.run(weld, Length::counted(count), push, {record.counts(), keys, b.table, b.slots});
     record.run("flag_firsts", Length::counted(count), count, {record.counts(), b.table, b.slots, b.firsts, b.flags});
@@ -59,7 +58,7 @@ GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room) 
     const uint64_t corners = room.corners(), triangles = room.triangles;
     GatherBuffers b;
     b.corners = words(4 * corners);
-    b.table = words(tableSize(room));
+    b.table = words(tableSize(room.corners()));
     b.slots = words(corners);
     b.firsts = words(corners);
     b.flags = words(corners);

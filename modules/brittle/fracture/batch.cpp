@@ -1,5 +1,6 @@
 #include "modules/brittle/fracture/batch.h"
 
+#include "modules/brittle/fracture/readback.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
@@ -209,11 +210,7 @@ void countCells(FractureResult& result, uint32_t sites_requested) {
     c.sites_requested = sites_requested;
     c.sites_used = c.exact_total = static_cast<uint32_t>(result.sites.size());
     c.sites_welded = sites_requested - c.sites_used;
-    std::vector<bool> filled(c.sites_used, false);
-    for (const Fragment& f : result.fragments.fragments)
-        filled[f.cell] = true;
-    c.cells_ok = static_cast<uint32_t>(std::ranges::count(filled, true));
-    c.cells_empty = c.sites_used - c.cells_ok;
+    countFilledCells(result);
 }
 
 } // namespace

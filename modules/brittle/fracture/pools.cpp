@@ -5,9 +5,10 @@
 #include <cmath>
 
 namespace brittle {
-namespace {
 
 uint32_t tableSize(uint64_t entries) { return static_cast<uint32_t>(std::bit_ceil(std::max<uint64_t>(2 * entries, 64))); }
+
+namespace {
 
 struct Extents {
     double edge_length = 0, longest_edge = 0, area = 0, cell = 1;

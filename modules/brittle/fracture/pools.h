@@ -18,6 +18,9 @@ namespace brittle {
 // Words a cell of the two larger exact kernels leaves in `raw`.
 constexpr uint32_t kMediumRaw = 2 + 256 + 2 * 512, kLargeRaw = 2 + 2048 + 2 * 4096;
 
+// Slots of a hash table for so many entries: a power of two, at most half full.
+uint32_t tableSize(uint64_t entries);
+
 struct Capacities {
     uint32_t sites = 0, vertices = 0, edges = 0, triangles = 0, bins = 0; // exact
     uint32_t neighbors = 0, corners = 0, voronoi_vertices = 0, voronoi_edges = 0;
@@ -50,7 +53,7 @@ struct Capacities {
     } rare;
 
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
-    // Slots of the hash tables: powers of two, at most half full.
+    // Slots of the hash tables.
     uint32_t siteTable() const;
     uint32_t pairTable() const;
     uint32_t pointTable() const;

@@ -49,14 +49,19 @@ void fillCounts(const std::vector<uint32_t>& status, const FractureOptions& opti
     c.cells_refused = status[STATUS_BAD_CELLS];
     c.exact_total = status[COUNT_SITES];
     c.exact_redone = status[COUNT_EXACT_SMALL];
+    countFilledCells(result);
+}
+
+} // namespace
+
+void countFilledCells(FractureResult& result) {
+    FractureCounts& c = result.counts;
     std::vector<bool> filled(c.sites_used, false);
     for (const Fragment& f : result.fragments.fragments)
         if (f.cell < filled.size()) filled[f.cell] = true;
     for (bool some : filled)
         (some ? c.cells_ok : c.cells_empty)++;
 }
-
-} // namespace
 
 engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mesh& mesh, const EventGrid& grid,
                                                const FractureOptions& options, const EventBuffers& b, const ScenePools& scene,

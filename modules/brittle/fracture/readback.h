@@ -10,6 +10,9 @@ engine::Result<std::vector<uint32_t>> readBack(engine::Device& device, const Mes
                                                const FractureOptions& options, const EventBuffers& b, const ScenePools& scene,
                                                FractureResult& result, std::vector<uint32_t>& site_tiles);
 
+// Of the sites used, how many have fragments and how many have none.
+void countFilledCells(FractureResult& result);
+
 // An event that finished, but not well: what went wrong, for the user.
 engine::Result<void> checkStatus(const std::vector<uint32_t>& status);
 
