@@ -8,7 +8,8 @@ const int kRings = 3;
 const int kLines = kRings + 1; // in place of a ring: all lines
 
 // Where the search stands: in a ring at a line (y, z) and its half, among the lines at the next one; then the sites of a row.
-ivec3 home;
+ivec3 home, from; // the home bin, and the site within its tile
+uint tile_bins;   // the first bin of the tile
 int ring, row_y, row_z, row_half;
 uint row, at, row_end, line_y, line_z;
 
@@ -23,6 +24,8 @@ void openRing(int r) {
 
 void beginSearch(uint lane, ivec3 site) {
     home = binOf(site);
+    from = inTile(site);
+    tile_bins = binIndex(ivec3(0), site);
     openRing(1);
     row = 0u;
     line_y = 0u;
@@ -31,9 +34,8 @@ void beginSearch(uint lane, ivec3 site) {
 
 // Rows of the rings around the home bin: whole lines along x where they bound the cube of the ring or nothing was seen before
 // it, elsewhere its two ends. Steps to the next that the search radius reaches.
-bool findRow(ivec3 site, out ivec2 part) {
+bool findRow(out ivec2 part) {
     bool found = at < row_end, fresh = !found;
-    ivec3 from = inTile(site);
     part = ivec2(1, 0);
     for (uint guard = 0u; guard < 4096u && !found && row_z <= ring; guard++) {
         bool whole = ring == 1 || abs(row_y) == ring || abs(row_z) == ring, right = row_half == 1;
@@ -45,7 +47,7 @@ bool findRow(ivec3 site, out ivec2 part) {
         bool inside = all(greaterThanEqual(ivec2(home.y + row_y, home.z + row_z), ivec2(0))) &&
                       all(lessThan(ivec2(home.y + row_y, home.z + row_z), bins.yz));
         found = inside && left >= 0.0 && part.x <= part.y;
-        row = binIndex(ivec3(0, home.y + row_y, home.z + row_z), site);
+        row = tile_bins + uint(((home.z + row_z) * bins.y + home.y + row_y) * bins.x);
         row_half = whole || right ? 0 : 1;
         row_y += row_half == 0 ? 1 : 0;
         bool slab_done = row_y > ring;
@@ -60,7 +62,7 @@ void fillFromRing(uint lane, ivec3 site) {
     bool more = phase == kSearching && ring <= kRings;
     for (uint guard = 0u; guard < 4096u && more; guard++) {
         ivec2 part;
-        bool fresh = findRow(site, part);
+        bool fresh = findRow(part);
         uint begin = bin_start[fresh ? row + uint(part.x) : 0u], end = bin_start[fresh ? row + uint(part.y) + 1u : 0u];
         at = fresh ? begin : at;
         row_end = fresh ? end : row_end;
@@ -83,9 +85,8 @@ int outward(uint k, int h, int n) {
 }
 
 // Steps to the next line of bins that the search radius reaches.
-bool findLine(ivec3 site) {
+bool findLine() {
     bool found = at < row_end, fresh = !found;
-    ivec3 from = inTile(site);
     for (uint guard = 0u; guard < 4096u && !found && line_z < uint(bins.z) && budget > 0u; guard++) {
         float dz = gap(spanOf(outward(line_z, home.z, bins.z), from.z, box_low.z));
         float dy = gap(spanOf(outward(line_y, home.y, bins.y), from.y, box_low.y));
@@ -101,14 +102,13 @@ bool findLine(ivec3 site) {
     return found && fresh;
 }
 
-void openLine(ivec3 site) {
+void openLine() {
     int y = outward(row & 0xffffu, home.y, bins.y), z = outward(row >> 16, home.z, bins.z);
-    ivec3 from = inTile(site);
     vec2 span_y = spanOf(y, from.y, box_low.y), span_z = spanOf(z, from.z, box_low.z), part = vec2(1e30, -1e30);
     ALL_CORNERS(k) widenByBall(part, vec3(corner_x[k], corner_y[k], corner_z[k]), corner_error[k], span_y, span_z);
     ivec2 reached = binsOfPart(part, from.x);
     bool any_ = reached.x <= reached.y;
-    uint first = binIndex(ivec3(0, y, z), site);
+    uint first = tile_bins + uint((z * bins.y + y) * bins.x);
     at = any_ ? bin_start[first + uint(reached.x)] : 0u;
     row_end = any_ ? bin_start[first + uint(reached.y) + 1u] : 0u;
 }
@@ -117,7 +117,7 @@ void fillFromLines(ivec3 site) {
     ivec3 corner = tileOf(site) + box_low.xyz, low = corner + (home - kRings) * bins.w, high = corner + (home + kRings + 1) * bins.w;
     bool more = phase == kSearching && ring == kLines;
     for (uint guard = 0u; guard < 4096u && more; guard++) {
-        if (findLine(site)) openLine(site);
+        if (findLine()) openLine();
         for (uint inner = 0u; inner < 4096u && at < row_end && count < LIST && budget > 0u && more; inner++) {
             ivec3 q = bin_sites[at].xyz;
             vec3 d = vec3(q - site);

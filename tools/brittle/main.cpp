@@ -1,6 +1,7 @@
 // brittle: shatters models and simulates scenes from the command line. Every subcommand stands in a file of its own; a new one
 // is a row below.
 #include "tools/brittle/command.h"
+#include "tools/brittle/driver_threads.h"
 #include "tools/brittle/interrupt.h"
 
 #include <cstdio>
@@ -28,6 +29,7 @@ int badUsage(const CLI::ParseError& error) {
 } // namespace
 
 int main(int argc, char** argv) {
+    cli::spreadDriverThreads();
     cli::cleanUpWhenInterrupted();
     CLI::App app{"Shatters closed meshes into closed fragments, on the GPU.", "brittle"};
     app.require_subcommand(1);
