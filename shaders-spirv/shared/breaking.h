@@ -19,6 +19,37 @@ struct BreakingRecord {
     uvec4 sites;  // first of all that break, how many
 };
 
+// What of a body there is to break, for every slot of a body. Its surface keeps the frame in which it was made, however often
+// what it bounds breaks: turning its vertices would round them.
+struct BreakableBody {
+    uvec4 surface; // first vertex in the pool, corners of its own surface, of earlier cuts; material, NO_INDEX for what does not break
+    vec4 form;     // volume, all of its surface, strength; w: s, for how long yet no blow breaks it
+    vec4 low;      // of its surface, frame of its vertices
+    vec4 high;
+    vec4 balance;  // center of mass, frame of its vertices
+    vec4 turn;     // from the frame of its vertices to its own axes
+};
+
+// What a body that breaks in this step was hit by, in the order of BreakingRecords.
+struct BrokenBody {
+    uvec4 ids;  // body, the one that it was hit by, pair, 1 where it is the pair's B
+    vec4 blow;  // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took, once it is known
+    vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
+    vec4 other; // the same place from the other's
+    vec4 along; // normal, from the body to the other
+};
+
+// Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of the
+// surface. Vertices, edges and corners of a hull of so
+// many faces are no more than these for each, so they lie in their pools at these times its first face.
+#define ROOM_BODY 0
+#define ROOM_PIECE 1
+#define ROOM_FACES 2
+#define ROOM_TRIANGLES 3
+#define VERTICES_A_FACE 2
+#define EDGES_A_FACE 3
+#define CORNERS_A_FACE 6
+
 // Draws of a site: about the impact, then evenly in the box; a site that found no place by then is left out.
 #define IMPACT_DRAWS 96
 #define EVEN_DRAWS 160
@@ -26,6 +57,6 @@ struct BreakingRecord {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::BreakingRecord) == 96);
+static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80);
 #endif
 #endif
