@@ -23,12 +23,24 @@ struct BreakingRecord {
 // what it bounds breaks: turning its vertices would round them.
 struct BreakableBody {
     uvec4 surface; // first vertex in the pool, corners of its own surface, of earlier cuts; material, NO_INDEX for what does not break
-    vec4 form;     // volume, all of its surface, strength; w: s, for how long yet no blow breaks it
+    vec4 form;     // volume, all of its surface, strength; w: s, of the world's time until which no blow breaks it
     vec4 low;      // of its surface, frame of its vertices
     vec4 high;
     vec4 balance;  // center of mass, frame of its vertices
     vec4 turn;     // from the frame of its vertices to its own axes
 };
+
+// A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so that
+// who pays for its cracks is certain; the others wait for a step, as does what there is no room for.
+struct BlowRecord {
+    uvec4 sides; // BREAKS_*, 0 for what breaks nothing
+    vec4 blow;   // effective mass, speed of meeting, its energy; w: share of the step that is over when they meet
+    vec4 arm_a;  // of the middle of its points
+    vec4 arm_b;
+};
+#define MOST_BREAKING 256 /* bodies in a step, as many as there are tiles */
+#define BREAKS_A 1
+#define BREAKS_B 2
 
 // What a body that breaks in this step was hit by, in the order of BreakingRecords.
 struct BrokenBody {
@@ -40,8 +52,8 @@ struct BrokenBody {
 };
 
 // Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of the
-// surface. Vertices, edges and corners of a hull of so
-// many faces are no more than these for each, so they lie in their pools at these times its first face.
+// surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools at
+// that many times its first face.
 #define ROOM_BODY 0
 #define ROOM_PIECE 1
 #define ROOM_FACES 2
@@ -57,6 +69,6 @@ struct BrokenBody {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80);
+static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 && sizeof(gpu::BlowRecord) == 64);
 #endif
 #endif

@@ -105,6 +105,7 @@
 #define STATUS_JOINED (2 * COUNT_TOTAL + 19) /* films that have found a host */
 #define STATUS_BAD_DIAGRAM (2 * COUNT_TOTAL + 20)  /* Voronoi edges without a beginning: signs were rounded */
 #define STATUS_OPEN_OUTLINES (2 * COUNT_TOTAL + 21) /* cut faces whose outline does not close: signs were rounded */
+#define STATUS_TOO_LARGE (2 * COUNT_TOTAL + 22) /* a body, counted from 1, that no step has room to break */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u

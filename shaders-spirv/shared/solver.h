@@ -27,6 +27,8 @@ GPU_NAMESPACE_BEGIN
 #define COUNT_AWAKE 26        /* bodies that move and do not sleep */
 #define COUNT_SWIFT 27        /* contacts, where any body is fast for its size, else 0 */
 #define COUNT_SOLVED_APART 28 /* workgroups that walk through contacts: one for every small island, one for what goes by color, if anything does */
+#define COUNT_BLOWS 29        /* contacts that break something in this step */
+#define COUNT_STRUCK 30       /* pairs, where there is such a contact, else 0 */
 
 // A bit of STATUS_FAILED: islands could not be joined.
 #define FAILED_ISLANDS 16u

@@ -18,34 +18,16 @@ READS(4, BodyState, bodies);
 READS(5, SolverBody, solver_bodies);
 WRITES(6, SolverContact, solver_contacts);
 layout(push_constant) uniform Push { SolverPush push_; };
-#include "lib/approach.glsl"
-#include "lib/body_way.glsl"
+#include "lib/meeting.glsl"
 #include "lib/symmetric_inverse.glsl"
-
-struct Pair {
-    Moving a, b;
-    vec4 turn_a, turn_b;
-    vec3 way, came; // from A to B, and what of that since the points were found
-    vec3 slid_a, slid_b; // of arms that follow, since the points were found
-};
 
 float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
-// What falls until it hits comes in faster than it is now: by the energy of the way that is left, and by half a substep, since
-// speeds lag places by as much (lib/approach.glsl).
-float speedOfMeeting(float speed, float separation, Pair p, vec3 normal) {
-    float gain = approachOf(p.a.inverse_mass, p.b.inverse_mass, normal, push_.gravity.xyz), now = speed - 0.5 * push_.gravity.w * gain;
-    return speed < 0.0 ? -sqrt(max(now * now + 2.0 * gain * max(separation, 0.0), 0.0)) : speed;
-}
-
 SolverPoint pointOf(uint pair, uint k, Pair p, vec3 normal) {
-    vec3 anchor_a = turned(p.turn_a, memory[pair].anchor_a[k].xyz), anchor_b = turned(p.turn_b, memory[pair].anchor_b[k].xyz);
     vec3 arm_a = memory[pair].arm_a[k].xyz + p.slid_a, arm_b = memory[pair].arm_b[k].xyz + p.slid_b;
-    // By differences: how far it is to the place of an endless plane says nothing.
-    vec3 left_a = anchor_a - memory[pair].arm_a[k].xyz, left_b = anchor_b - memory[pair].arm_b[k].xyz;
-    float separation = memory[pair].arm_a[k].w + dot(normal, p.came + left_b - left_a);
+    float separation = separationNow(pair, k, p, normal);
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
-    float speed = speedOfMeeting(dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), separation, p, normal);
+    float speed = speedOfMeeting(dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), separation, p, normal, push_.gravity);
     return SolverPoint(vec4(arm_a, separation), vec4(arm_b, inverseOf(yield_)), vec4(memory[pair].anchor_a[k].w, 0.0, speed, 0.0));
 }
 
@@ -87,9 +69,7 @@ void main() {
     uint pair = contact_pairs[at], c = contact_slots[at];
     uvec4 ids = memory[pair].ids;
     vec4 normal = memory[pair].normal, tangent = memory[pair].tangent;
-    Pair p = Pair(movingOf(solver_bodies[ids.x]), movingOf(solver_bodies[ids.y]), bodies[ids.x].turn, bodies[ids.y].turn,
-                  wayBetween(ids.x, ids.y), vec3(0.0), vec3(0.0), vec3(0.0));
-    p.came = p.way - turned(memory[pair].turn_a, memory[pair].place.xyz);
+    Pair p = pairNow(pair, ids);
     vec3 center_a = vec3(0.0), center_b = vec3(0.0);
     uint points = min(ids.z, MANIFOLD_POINTS);
     for (uint k = 0u; k < points; k++) {

@@ -1,0 +1,164 @@
+// Which bodies break in this step, and how: all whose blow was chosen, in their order, as long as there is room for what they
+// make. One workgroup. What there is no room for now waits for the next step, held where it is; what there never will be room for
+// does not break, and the host is told.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/breaking_laws.glsl"
+#include "lib/quaternion.glsl"
+#include "shared/body.h"
+#include "shared/breaking.h"
+#include "shared/solver.h"
+
+GROUP_KERNEL;
+READS(0, uint, world_counts);
+READS(1, ContactMemory, memory);
+READS(2, BodyState, bodies);
+READS(3, BodyShape, shapes);
+READS(4, BlowRecord, blows);
+READS(5, uint, chosen);
+READS(6, MaterialCard, cards);
+READS(7, uint, steps);
+UPDATES(8, BreakableBody, breakable);
+UPDATES(9, BreakingRecord, breaking);
+UPDATES(10, BrokenBody, broken);
+UPDATES(11, uint, counts); // of the event
+UPDATES(12, uint, args);
+layout(push_constant) uniform Push {
+    uint most_bodies, most_triangles, most_sites; // of one step
+    uint most_fragments; // of one body
+    uint seed;
+};
+#include "lib/publish.glsl"
+
+shared uint flags[GROUP_SIZE];
+shared uint listed[MOST_BREAKING];
+shared uint sites_of[MOST_BREAKING];
+shared uint admitted[MOST_BREAKING];
+shared uint found;
+
+const float kGridHalf = 8388608.0;
+
+uint sideOf(uint body, uint pair) { return memory[pair].ids.x == body ? BREAKS_A : BREAKS_B; }
+
+// Chosen by both, unless the other takes part in any number of blows, and hard enough for this one.
+bool isBroken(uint body) {
+    uint pair = chosen[body];
+    if (pair == NO_INDEX) return false;
+    uvec2 ids = memory[pair].ids.xy;
+    uint other = ids.x == body ? ids.y : ids.x;
+    bool agreed = chosen[other] == pair || !(bodies[other].offset.w != 0.0 || breakable[other].surface.y > 0u);
+    return agreed && (blows[pair].sides.x & sideOf(body, pair)) != 0u;
+}
+
+void listBroken(uint lane) {
+    if (lane == 0u) found = 0u;
+    uint bodies_ = world_counts[COUNT_BODIES];
+    for (uint first = 0u; first < bodies_; first += GROUP_SIZE) {
+        uint body = first + lane;
+        flags[lane] = body < bodies_ && isBroken(body) ? 1u : 0u;
+        barrier();
+        uint before = 0u, all_ = 0u;
+        for (uint k = 0u; k < GROUP_SIZE; k++) {
+            before += k < lane ? flags[k] : 0u;
+            all_ += flags[k];
+        }
+        uint at = found + before;
+        if (flags[lane] != 0u && at < MOST_BREAKING) listed[at] = body;
+        barrier();
+        if (lane == 0u) found = min(found + all_, uint(MOST_BREAKING));
+        barrier();
+    }
+}
+
+BlowRecord blowOf(uint body) { return blows[chosen[body]]; }
+
+// Of the blow's energy, what is this body's.
+float joulesOf(BlowRecord blow) { return blow.blow.z * (blow.sides.x == (BREAKS_A | BREAKS_B) ? 0.5 : 1.0); }
+
+uint fragmentsOf(uint body) {
+    BreakableBody b = breakable[body];
+    return fragmentCount(cards[b.surface.w], formOf(b.form.x, b.form.y), joulesOf(blowOf(body)), most_fragments);
+}
+
+uint trianglesOf(uint body) { return (breakable[body].surface.y + breakable[body].surface.z) / 3u; }
+
+// In order, by one lane: there are few.
+void admit() {
+    uvec3 left = uvec3(min(most_bodies, uint(MOST_BREAKING)), most_triangles, most_sites), taken = uvec3(0u);
+    for (uint k = 0u; k < found; k++) {
+        uvec3 asked = uvec3(1u, trianglesOf(listed[k]), sites_of[k]);
+        bool fits = all(lessThanEqual(taken + asked, left)), never = any(greaterThan(asked, left));
+        if (never) breakable[listed[k]].surface.y = 0u;
+        if (never) counts[STATUS_TOO_LARGE] = listed[k] + 1u;
+        admitted[k] = fits ? taken.x : NO_INDEX;
+        if (fits) {
+            breaking[taken.x].range.w = 3u * taken.y;
+            breaking[taken.x].sites = uvec4(taken.z, asked.z, 0u, 0u);
+            taken += asked;
+        }
+    }
+    publishCount(COUNT_BREAKING, taken.x, NO_INDEX);
+    publishCount(COUNT_SOUP_TRIANGLES, taken.y, NO_INDEX);
+    publishCount(COUNT_SOUP_CORNERS, 3u * taken.y, NO_INDEX);
+    publishCount(COUNT_ASKED_SITES, taken.z, NO_INDEX);
+}
+
+// Grid steps in half a grid's edge are a power of two, and so is this: nothing is rounded but the way to the center.
+float unitOf(vec3 half_size) {
+    int exponent;
+    float part = frexp(max(max(half_size.x, half_size.y), half_size.z), exponent);
+    return ldexp(1.0, -exponent);
+}
+
+ivec3 onGrid(vec3 place, vec4 center) { return ivec3(roundEven((place - center.xyz) * center.w * kGridHalf)) + ivec3(1 << 23); }
+
+// Where the contact has grown to when it presses most (Hertz). Flat is what does not move: it is larger than what hits it.
+float contactRadiusOf(uint body, uint other, BlowRecord blow) {
+    float curved = 1.0 / shapes[body].inverse_inertia[2].w + (bodies[other].offset.w != 0.0 ? 1.0 / shapes[other].inverse_inertia[2].w : 0.0);
+    uint material = breakable[other].surface.w;
+    float other_modulus = material != NO_INDEX ? cards[material].elastic.y : float(RIGID_MODULUS), own = cards[breakable[body].surface.w].elastic.y;
+    return hertzRadiusOf(Blow(blow.blow.x, blow.blow.y, float(RIGID_IMPEDANCE)), 1.0 / curved, 1.0 / (1.0 / own + 1.0 / other_modulus));
+}
+
+void setRecord(uint k, uint body, uint other, vec3 arm, BlowRecord blow) {
+    BreakableBody b = breakable[body];
+    vec4 center = vec4(0.5 * (b.low.xyz + b.high.xyz), unitOf(0.5 * (b.high.xyz - b.low.xyz)));
+    vec3 own = turned(turnBack(bodies[body].turn), arm), place = turned(turnBack(b.turn), own) + b.balance.xyz;
+    ivec3 low = onGrid(b.low.xyz, center), high = onGrid(b.high.xyz, center), at = clamp(onGrid(place, center), low, high);
+    vec3 far = vec3(max(at - low, high - at));
+    float radius = contactRadiusOf(body, other, blow) * center.w * kGridHalf, furthest = ceil(length(far)) + 1.0;
+    breaking[k].center = center;
+    breaking[k].range.xyz = b.surface.xyz;
+    breaking[k].impact = ivec4(at, int(clamp(radius, 1.0, furthest)));
+    breaking[k].low = ivec4(low, int(furthest));
+    breaking[k].high = ivec4(high, int(mixed(mixed(seed + body) + steps[STEPS_MADE])));
+}
+
+void setBroken(uint k, uint body) {
+    uint pair = chosen[body];
+    BlowRecord blow = blows[pair];
+    bool is_b = memory[pair].ids.x != body;
+    uint other = is_b ? memory[pair].ids.x : memory[pair].ids.y;
+    vec3 normal = memory[pair].normal.xyz, arm = is_b ? blow.arm_b.xyz : blow.arm_a.xyz;
+    float joules = cards[breakable[body].surface.w].cracks.z * joulesOf(blow);
+    broken[k].ids = uvec4(body, other, pair, is_b ? 1u : 0u);
+    broken[k].blow = vec4(blow.blow.xy, joules, 0.0);
+    broken[k].place = vec4(arm, blow.blow.w);
+    broken[k].other = vec4(is_b ? blow.arm_a.xyz : blow.arm_b.xyz, 0.0);
+    broken[k].along = vec4(is_b ? -normal : normal, 0.0);
+    setRecord(k, body, other, arm, blow);
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    if (world_counts[COUNT_BLOWS] == 0u || world_counts[STATUS_FAILED] != 0u) return;
+    listBroken(lane);
+    for (uint k = lane; k < found; k += GROUP_SIZE) sites_of[k] = fragmentsOf(listed[k]);
+    barrier();
+    if (lane == 0u) admit();
+    barrier();
+    for (uint k = lane; k < found; k += GROUP_SIZE) {
+        if (admitted[k] != NO_INDEX) setBroken(admitted[k], listed[k]);
+    }
+}
