@@ -51,6 +51,12 @@ struct BrokenBody {
     vec4 along; // normal, from the body to the other
 };
 
+// What a blow has cost, in the order of BrokenBodies; with the first of two that break each other, for both.
+struct CrackLedger {
+    uvec4 outcome; // 1 where the body became its fragments
+    vec4 energies; // of the motion of both before and after, J that their cracks cost; w: m2 of this body's cracks
+};
+
 // Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of the
 // surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools at
 // that many times its first face.
@@ -70,5 +76,6 @@ GPU_NAMESPACE_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 && sizeof(gpu::BlowRecord) == 64);
+static_assert(sizeof(gpu::CrackLedger) == 32);
 #endif
 #endif

@@ -1,0 +1,105 @@
+// Cracks are paid for by the motion of the two bodies that met, once it is known how much crack there is: an impulse at the
+// contact, along its normal, that takes exactly what they cost, and no more than the two have there. It is measured from how
+// they move now that the step is over. Where both break, one lane pays for both. A body that does not become its fragments after
+// all stays whole, pays nothing, and is left alone for a while, so that what hit it is solved as any contact.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/breaking_laws.glsl"
+#include "lib/rigid.glsl"
+#include "shared/breaking.h"
+#include "shared/solver.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+UPDATES(1, BrokenBody, broken);
+READS(2, float, cracks);
+READS(3, uvec4, lacking);
+READS(4, uint, owner_start);
+UPDATES(5, BodyState, bodies);
+READS(6, BodyShape, shapes);
+UPDATES(7, BreakableBody, breakable);
+READS(8, MaterialCard, cards);
+READS(9, uint, steps);
+UPDATES(10, CrackLedger, ledger);
+layout(push_constant) uniform Push {
+    float duration; // of a step
+    float pause;    // s, in which what could not be broken is left alone
+};
+#include "lib/body_way.glsl"
+
+bool isServed(uint k) {
+    bool made = counts[STATUS_FAILED] == 0u && counts[COUNT_FRAGMENTS] > 0u;
+    return made && lacking[k] == uvec4(0u) && owner_start[k + 1u] > owner_start[k] + 1u;
+}
+
+// The other object of the same pair, NO_INDEX where there is none.
+uint partnerOf(uint k) {
+    for (uint j = 0u; j < counts[COUNT_BREAKING] && j < MOST_BREAKING; j++)
+        if (j != k && broken[j].ids.z == broken[k].ids.z) return j;
+    return NO_INDEX;
+}
+
+float costOf(uint k) { return cards[breakable[broken[k].ids.x].surface.w].cracks.y * cracks[k]; }
+
+struct Mover {
+    uint body;
+    vec3 arm;
+    float inverse_mass;
+    mat3 inverse;
+};
+
+Mover moverOf(uint body, vec3 arm) {
+    return Mover(body, arm, bodies[body].offset.w, worldInertia(ownInverseInertia(shapes[body]), bodies[body].turn));
+}
+
+vec3 velocityOf(Mover m) { return bodies[m.body].velocity.xyz + cross(bodies[m.body].spin.xyz, m.arm); }
+
+float yieldOf(Mover m, vec3 n) {
+    vec3 lever = cross(m.arm, n);
+    return m.inverse_mass + dot(lever, m.inverse * lever);
+}
+
+float energyOfMotion(Mover m) {
+    if (m.inverse_mass == 0.0) return 0.0;
+    vec3 v = bodies[m.body].velocity.xyz;
+    return 0.5 * (dot(v, v) / m.inverse_mass + dot(bodies[m.body].spin.xyz, bodies[m.body].momentum.xyz));
+}
+
+void push(Mover m, vec3 impulse) {
+    if (m.inverse_mass == 0.0) return;
+    bodies[m.body].velocity.xyz += m.inverse_mass * impulse;
+    vec3 momentum = bodies[m.body].momentum.xyz + cross(m.arm, impulse);
+    bodies[m.body].momentum.xyz = momentum;
+    bodies[m.body].spin.xyz = spinOf(ownInverseInertia(shapes[m.body]), bodies[m.body].turn, momentum);
+}
+
+// Both at one place, or the pair would gain angular momentum.
+void pay(uint k, float joules) {
+    uvec2 ids = broken[k].ids.xy;
+    vec3 n = broken[k].along.xyz, arm = broken[k].place.xyz;
+    Mover own = moverOf(ids.x, arm), other = moverOf(ids.y, arm - wayBetween(ids.x, ids.y));
+    if (other.inverse_mass == 0.0) other.arm = vec3(0.0); // of an endless plane, say
+    float yield_ = yieldOf(own, n) + yieldOf(other, n), speed = max(-dot(n, velocityOf(other) - velocityOf(own)), 0.0);
+    float before = energyOfMotion(own) + energyOfMotion(other);
+    float impulse = yield_ > 0.0 ? crackImpulse(Blow(1.0 / yield_, speed, float(RIGID_IMPEDANCE)), joules) : 0.0;
+    push(own, -impulse * n);
+    push(other, impulse * n);
+    broken[k].blow.w = impulse;
+    ledger[k].energies = vec4(before, energyOfMotion(own) + energyOfMotion(other), joules, cracks[k]);
+}
+
+void main() {
+    uint k = flatIndex();
+    if (k >= counts[COUNT_BREAKING]) return;
+    bool served = isServed(k);
+    ledger[k] = CrackLedger(uvec4(served ? 1u : 0u, 0u, 0u, 0u), vec4(0.0));
+    if (!served) {
+        breakable[broken[k].ids.x].form.w = float(steps[STEPS_MADE]) * duration + pause;
+        return;
+    }
+    uint partner = partnerOf(k);
+    bool both = partner != NO_INDEX && isServed(partner);
+    if (both && partner < k) return; // which pays for this one
+    pay(k, costOf(k) + (both ? costOf(partner) : 0.0));
+}
