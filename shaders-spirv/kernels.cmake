@@ -147,6 +147,12 @@ endforeach()
 kernel(primitives/weld_points.comp NAME weld_corners DEFINES WORDS=4 STRIDE=4)
 kernel(primitives/weld_points.comp NAME weld_sides DEFINES WORDS=2 STRIDE=2)
 
+# Pools of a running world.
+foreach(name IN ITEMS return_ranges take_ranges)
+    kernel(breaking/${name}.comp)
+    kernel(breaking/${name}.comp NAME ${name}_wide DEFINES LANES=64u)
+endforeach()
+
 # Dynamics.
 foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
         order_adjacency order_islands prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)

@@ -10,6 +10,7 @@
 #include "shaders-spirv/shared/fragment_record.h"
 #include "shaders-spirv/shared/hull.h"
 #include "shaders-spirv/shared/narrow_phase.h"
+#include "shaders-spirv/shared/pool.h"
 #include "shaders-spirv/shared/scene.h"
 #include "tests/engine/test_device.h"
 
@@ -68,6 +69,12 @@ const std::vector<Row>& rows() {
          sizeof(gpu::BreakingRecord),
          {MEMBER(BreakingRecord, center), MEMBER(BreakingRecord, range), MEMBER(BreakingRecord, impact),
           MEMBER(BreakingRecord, low), MEMBER(BreakingRecord, high), MEMBER(BreakingRecord, sites)}},
+        {"PoolHeader",
+         sizeof(gpu::PoolHeader),
+         {MEMBER(PoolHeader, capacity), MEMBER(PoolHeader, free_ranges), MEMBER(PoolHeader, in_use),
+          MEMBER(PoolHeader, most_in_use), MEMBER(PoolHeader, lacked), MEMBER(PoolHeader, status),
+          MEMBER(PoolHeader, returned_twice), MEMBER(PoolHeader, lost), MEMBER(PoolHeader, side)}},
+        {"PoolShare", sizeof(gpu::PoolShare), {MEMBER(PoolShare, begin), MEMBER(PoolShare, size)}},
         {"HullRecord",
          sizeof(gpu::HullRecord),
          {MEMBER(HullRecord, first), MEMBER(HullRecord, count), MEMBER(HullRecord, center)}},
