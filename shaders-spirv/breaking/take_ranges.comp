@@ -3,8 +3,9 @@
 //
 // One workgroup does it, a lane a pool: what an object finds depends on all that came before it, and on all pools. Over each list
 // lies a tree of the largest size under every eight, so that a search takes four looks at eight; and since it has then seen what
-// else there is beside its way, the tree is right again after a store a level. The other lanes help to make the trees and to pack
-// the lists.
+// else there is beside its way, the tree is right again after a store a level. That is one turn of a loop a request, where walks
+// along lists would take more than Mesa's software device allows (shaders-spirv/README.md). The other lanes help to make the
+// trees and to pack the lists.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -49,10 +49,19 @@ uint32_t liveBoth(const PoolRoom& room, PoolLife life, uint32_t steps, bool many
 } // namespace
 
 TEST(SmallPools, AreThoseOfAHostThatMarksEveryElement) {
+    for (const bool many_lanes : {false, true}) {
+        const uint32_t refused = liveBoth(smallRoom(), PoolLife(17, 12, 8, {1, 6, 20, 2}), 40, many_lanes);
+        EXPECT_GT(refused, 20u) << "pools never ran short";
+    }
+}
+
+TEST(Pools, AreThoseOfAHostThatMarksEveryElement) {
+    const PoolRoom large{
+        .capacity = {1000, 3000, 9000, 20'000}, .objects = 2000, .returned = 2000, .owners = 64, .requests = 2048};
     for (const bool many_lanes : {false, true})
         for (uint32_t seed = 0; seed < 4; ++seed) {
-            const uint32_t refused = liveBoth(smallRoom(), PoolLife(seed, 12, 8, {1, 6, 20, 2}), 60, many_lanes);
-            EXPECT_GT(refused, 20u) << "pools never ran short";
+            EXPECT_GT(liveBoth(smallRoom(), PoolLife(seed, 12, 8, {1, 6, 20, 2}), 100, many_lanes), 20u);
+            EXPECT_GT(liveBoth(large, PoolLife(seed, 64, 32, {1, 7, 20, 60}), 20, many_lanes), 20u);
         }
 }
 

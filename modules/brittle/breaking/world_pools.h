@@ -1,5 +1,5 @@
 // Pools of a running world: bodies, their pieces, faces of their hulls, triangles of their surfaces. What is free of them is
-// known to the device alone, where objects that break or expire return their ranges and fragments take new ones in the same step.
+// known to the device alone, where fragments take ranges and objects that have broken or expired return theirs in one step.
 #pragma once
 
 #include "engine/arena.h"
@@ -47,7 +47,8 @@ struct PoolState {
 engine::Result<PoolState> poolsWith(const PoolRoom& room, const FreeLists& free);
 FreeLists allFree(const PoolRoom& room);
 
-// Both want their count published, and end at once where it is 0.
+// Both read their count where they run, and end at once where it is 0. An object that breaks keeps its own ranges until its
+// fragments have theirs, since it stays whole where there is no room: it takes first, and returns where nothing was lacking.
 struct PoolReturns {
     uint32_t count = NO_INDEX;   // index into the counts
     engine::BufferView returned; // PoolShares, in any order
