@@ -21,7 +21,6 @@ READS(11, uint, wide_faces);
 WRITES(12, uint, large_faces);
 WRITES(13, uint, huge_faces);
 WRITES(14, uint, cap_slots);
-layout(push_constant) uniform Push { uint vertex_count; };
 #include "lib/cap_plane.glsl"
 #include "lib/fan.glsl"
 
@@ -33,7 +32,7 @@ ivec2 placeOf(uint id, CapPlane plane) { return ivec2(capCoordinate(id, plane.u)
 
 // Corners on Voronoi edges; where there are none, or too many, the corner with the greatest name.
 void listCandidates(uint lane, CapPlane plane) {
-    uint first_triple = vertex_count + counts[COUNT_CROSSINGS];
+    uint first_triple = counts[COUNT_MESH_VERTICES] + counts[COUNT_CROSSINGS];
     for (uint k = lane; k < n; k += GROUP_SIZE) {
         uvec4 s = segments[first + k];
         uint name = welded[s.x];

@@ -23,7 +23,6 @@ READS(10, uint, interval_offsets);
 UPDATES(11, uint, face_counts); // while filling: cursors
 READS(12, uint, face_offsets);
 WRITES(13, uvec4, segments);    // from, to, source, 1 if it lies in the mesh
-layout(push_constant) uniform Push { uint vertex_count; };
 
 uvec3 faces;
 uint made, base, first_triple, first_voronoi;
@@ -62,7 +61,7 @@ void main() {
     if (e >= counts[COUNT_VORONOI_EDGES] || counts[STATUS_FAILED] != 0u) return;
     uvec4 s = edge_sites[e];
     uvec2 ends = edge_ends[e];
-    first_triple = vertex_count + counts[COUNT_CROSSINGS];
+    first_triple = counts[COUNT_MESH_VERTICES] + counts[COUNT_CROSSINGS];
     first_voronoi = first_triple + counts[COUNT_TRIPLES];
     faces = uvec3(faceOf(s.x, s.y), faceOf(s.x, s.z), faceOf(s.y, s.z));
     made = 0u;

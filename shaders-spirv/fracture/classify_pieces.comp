@@ -1,5 +1,5 @@
 // Own surface, face of an earlier cut or inner, for every sorted triangle: a cap is inner while the piece behind it exists.
-// Triangles of the mesh from `own_triangles` on lie on faces of earlier cuts.
+// Triangles of the mesh behind its own ones lie on faces of earlier cuts.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -12,10 +12,6 @@ READS(3, uint, components);
 READS(4, uvec2, fates);
 WRITES(5, uvec4, classes);
 READS(6, uint, parents);
-layout(push_constant) uniform Push {
-    uint triangle_count;
-    uint own_triangles;
-};
 #include "lib/piece_behind.glsl"
 
 void main() {
@@ -23,10 +19,10 @@ void main() {
     if (k >= counts[COUNT_VALID] || counts[STATUS_FAILED] != 0u) return;
     uint t = order[k];
     bool cap = (sources[t] & INNER_BIT) != 0u;
-    uint behind = cap ? pieceBehind(t, triangle_count + counts[COUNT_FAN_TRIANGLES]) : t;
+    uint behind = cap ? pieceBehind(t, counts[COUNT_MESH_TRIANGLES] + counts[COUNT_FAN_TRIANGLES]) : t;
     uint mate = components[behind];
     bool faced = mate != NO_INDEX && fates[mate != NO_INDEX ? mate : components[t]].x != FATE_DISSOLVED;
     bool stays = fates[components[t]].x != FATE_DISSOLVED;
-    bool inner = cap && faced, earlier = !cap && sources[t] >= own_triangles;
+    bool inner = cap && faced, earlier = !cap && sources[t] >= counts[COUNT_OWN_TRIANGLES];
     classes[k] = uvec4(stays && !inner && !earlier ? 1u : 0u, stays && earlier ? 1u : 0u, stays && inner ? 1u : 0u, 0u);
 }

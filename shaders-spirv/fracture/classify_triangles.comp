@@ -5,18 +5,18 @@
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, triangles);
-READS(1, uint, triangle_edges);
-READS(2, uint, owners);
-READS(3, uint, edge_slot);
-WRITES(4, uint, flags);
-layout(push_constant) uniform Push { uint length; };
+READS(0, uint, counts);
+READS(1, uint, triangles);
+READS(2, uint, triangle_edges);
+READS(3, uint, owners);
+READS(4, uint, edge_slot);
+WRITES(5, uint, flags);
 
 bool crossed(uint e) { return edge_slot[e + 1u] != edge_slot[e]; }
 
 void main() {
     uint t = flatIndex();
-    if (t >= length) return;
+    if (t >= counts[COUNT_MESH_TRIANGLES] || counts[STATUS_FAILED] != 0u) return;
     bool mixed = crossed(triangle_edges[3u * t]) || crossed(triangle_edges[3u * t + 1u]) || crossed(triangle_edges[3u * t + 2u]);
     uint tied = owners[triangles[3u * t]] & owners[triangles[3u * t + 1u]] & owners[triangles[3u * t + 2u]] & 0x80000000u;
     flags[t] = mixed || tied != 0u ? 1u : 0u;

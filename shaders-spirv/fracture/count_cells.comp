@@ -9,13 +9,12 @@ UPDATES(0, uint, counts);
 READS(1, uvec2, cell_raw);
 READS(2, uint, raw);
 WRITES(3, uvec4, cell_counts);
-layout(push_constant) uniform Push { uint slots; };
 #include "lib/raw_cell.glsl"
 
 void main() {
     uint cell = flatIndex();
-    if (cell >= slots) return;
-    bool used = cell < counts[COUNT_SITES] && counts[STATUS_FAILED] == 0u;
+    if (cell >= counts[COUNT_SITES]) return;
+    bool used = counts[STATUS_FAILED] == 0u;
     RawCell r = openCell(used ? cell : 0u);
     if (used && r.status != CELL_OK) {
         atomicAdd(counts[STATUS_BAD_CELLS], 1u);

@@ -19,7 +19,6 @@ layout(push_constant) uniform Push {
     ivec4 bins; // w: edge of a bin
     ivec4 box_low;
     ivec4 box_high;
-    uint slots;
     // Loop turns that a lane may take. Mesa's software device stops a subgroup at 65,535 without a word, and lanes that run in
     // step may each take theirs at different times. Unrolled loops take none.
     uint turn_budget;
@@ -50,7 +49,7 @@ void nextPhase(ivec3 site) {
 
 void main() {
     uint lane = flatIndex();
-    bool has_cell = lane < min(slots, counts[COUNT_SITES]);
+    bool has_cell = lane < counts[COUNT_SITES];
 #ifndef SEARCH_LINEAR // it needs all lanes of a workgroup
     if (!has_cell) return;
 #endif

@@ -21,7 +21,6 @@ layout(push_constant) uniform Push {
     ivec4 bins; // w: edge of a bin
     ivec4 box_low;
     ivec4 box_high;
-    uint slots;
 };
 shared uint open_sites[MOST_OPEN];
 uint open_total; // the same for all lanes
@@ -90,7 +89,7 @@ void writeCell(uint lane) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x, group = flatGroup();
-    if (group >= min(slots, counts[COUNT_SITES]) || counts[STATUS_FAILED] != 0u) return;
+    if (group >= counts[COUNT_SITES] || counts[STATUS_FAILED] != 0u) return;
     ivec4 own = bin_sites[group];
     self = uint(own.w);
     site = own.xyz;

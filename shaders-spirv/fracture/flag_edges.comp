@@ -4,14 +4,14 @@
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uvec2, mesh_edges);
-READS(1, uint, owners);
-WRITES(2, uint, flags);
-layout(push_constant) uniform Push { uint length; };
+READS(0, uint, counts);
+READS(1, uvec2, mesh_edges);
+READS(2, uint, owners);
+WRITES(3, uint, flags);
 
 void main() {
     uint e = flatIndex();
-    if (e >= length) return;
+    if (e >= counts[COUNT_MESH_EDGES] || counts[STATUS_FAILED] != 0u) return;
     uvec2 ends = mesh_edges[e];
     flags[e] = ((owners[ends.x] ^ owners[ends.y]) & 0x7fffffffu) != 0u ? 1u : 0u;
 }

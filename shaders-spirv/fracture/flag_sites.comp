@@ -8,11 +8,10 @@ UPDATES(0, uint, counts);
 READS(1, uint, welded);
 READS(2, uint, placed);
 WRITES(3, uint, flags);
-layout(push_constant) uniform Push { uint site_count; };
 
 void main() {
     uint s = flatIndex();
-    if (s >= site_count) return;
+    if (s >= counts[COUNT_ASKED_SITES] || counts[STATUS_FAILED] != 0u) return;
     bool here = placed[s] != 0u, first = welded[s] == s;
     if (!here) atomicAdd(counts[STATUS_UNPLACED], 1u);
     if (here && !first) atomicAdd(counts[STATUS_WELDED], 1u);

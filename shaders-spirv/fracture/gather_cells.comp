@@ -15,12 +15,11 @@ WRITES(6, uvec2, corner_info);
 WRITES(7, uvec4, vertex_sites);
 WRITES(8, uvec2, edge_ends);  // for now the corner at which the edge ends, and which of its three edges it is
 WRITES(9, uint, face_cells);  // the cell that each neighbor entry belongs to
-layout(push_constant) uniform Push { uint slots; };
 #include "lib/raw_cell.glsl"
 
 void main() {
     uint cell = flatIndex();
-    if (cell >= min(slots, counts[COUNT_SITES]) || counts[STATUS_FAILED] != 0u) return;
+    if (cell >= counts[COUNT_SITES] || counts[STATUS_FAILED] != 0u) return;
     RawCell r = openCell(cell);
     uvec4 at = cell_offsets[cell];
     for (uint p = 0u; p < r.plane_count; p++) {

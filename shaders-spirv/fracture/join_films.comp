@@ -24,7 +24,6 @@ READS(11, uvec4, cell_offsets);
 READS(12, uint, neighbors);
 UPDATES(13, uvec2, fates);
 layout(push_constant) uniform Push {
-    uint triangle_count;
     uint round;
     float unit;
     float step_size; // of the grid, in box units
@@ -40,7 +39,7 @@ vec3 siteOf(uint s) { return vec3(inTile(sites[s].xyz) - ivec3(1 << 23)) * step_
 
 // The fragment behind one side of a cap, NO_INDEX where its fate was open when the round began.
 uint hostBehind(uint side) {
-    uint mate = components[pieceBehind(side, triangle_count + counts[COUNT_FAN_TRIANGLES])];
+    uint mate = components[pieceBehind(side, counts[COUNT_MESH_TRIANGLES] + counts[COUNT_FAN_TRIANGLES])];
     uvec2 fate = fates[mate != NO_INDEX ? mate : 0u];
     bool settled = fate.x == FATE_FRAGMENT || (fate.x >= FATE_JOINED && fate.x < FATE_JOINED + round);
     return mate != NO_INDEX && settled ? fate.y : NO_INDEX;

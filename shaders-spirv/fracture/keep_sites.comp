@@ -4,20 +4,20 @@
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;
-READS(0, uint, site_slot);
-READS(1, uint, raw_sites);
-WRITES(2, ivec4, sites); // position on the grid; w: which of the sites asked for
-UPDATES(3, uint, bin_counts);
+READS(0, uint, counts);
+READS(1, uint, site_slot);
+READS(2, uint, raw_sites);
+WRITES(3, ivec4, sites); // position on the grid; w: which of the sites asked for
+UPDATES(4, uint, bin_counts);
 layout(push_constant) uniform Push {
     ivec4 bins;
     ivec4 box_low;
-    uint site_count;
 };
 #include "lib/bin_lines.glsl"
 
 void main() {
     uint s = flatIndex();
-    if (s >= site_count) return;
+    if (s >= counts[COUNT_ASKED_SITES] || counts[STATUS_FAILED] != 0u) return;
     uint at = site_slot[s];
     if (site_slot[s + 1u] == at) return;
     ivec3 p = ivec3(int(raw_sites[3u * s]), int(raw_sites[3u * s + 1u]), int(raw_sites[3u * s + 2u]));

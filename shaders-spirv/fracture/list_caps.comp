@@ -20,7 +20,6 @@ WRITES(11, uint, suspects);
 READS(12, vec4, positions);
 READS(13, uint, cap_slots);
 layout(push_constant) uniform Push {
-    uint triangle_count;
     float unit;      // model units to box units
     float step_size; // of the grid, in box units
 };
@@ -36,7 +35,7 @@ void main() {
     uint at = flatIndex();
     if (at >= counts[COUNT_FACES] || counts[STATUS_FAILED] != 0u) return;
     uint f = faces[at], from = cap_slots[at], slots = from + 2u * (face_offsets[f + 1u] - face_offsets[f]);
-    uint to = triangle_count + counts[COUNT_FAN_TRIANGLES] + 2u * cap_offsets[at];
+    uint to = counts[COUNT_MESH_TRIANGLES] + counts[COUNT_FAN_TRIANGLES] + 2u * cap_offsets[at];
     uint left = cap_offsets[at + 1u] - cap_offsets[at];
     for (; left > 0u && from < slots; from++) {
         uvec3 cap = uvec3(loose_caps[3u * from], loose_caps[3u * from + 1u], loose_caps[3u * from + 2u]);

@@ -12,7 +12,6 @@ READS(4, uint, welded);
 WRITES(5, uvec4, pieces);
 WRITES(6, uint, sources);
 WRITES(7, uint, parents);
-layout(push_constant) uniform Push { uint triangle_count; };
 
 void main() {
     uint q = flatIndex();
@@ -22,7 +21,7 @@ void main() {
     uint cell = polygon.z != NO_INDEX ? polygon.z : polygon.y;
     uint a = welded[polygon_corners[at.x]], b = welded[polygon_corners[at.x + 1u]];
     for (uint k = 2u; k < n; k++) {
-        uint c = welded[polygon_corners[at.x + k]], to = triangle_count + at.w + k - 2u;
+        uint c = welded[polygon_corners[at.x + k]], to = counts[COUNT_MESH_TRIANGLES] + at.w + k - 2u;
         bool flat_ = a == b || b == c || c == a;
         pieces[to] = uvec4(a, b, c, flat_ ? NO_INDEX : cell);
         sources[to] = polygon.x;

@@ -13,11 +13,10 @@ READS(4, uint, welded);
 WRITES(5, uvec4, pieces); // three corners, cell or NO_INDEX
 WRITES(6, uint, sources);
 WRITES(7, uint, parents);
-layout(push_constant) uniform Push { uint length; };
 
 void main() {
     uint t = flatIndex();
-    if (t >= length || counts[STATUS_FAILED] != 0u) return;
+    if (t >= counts[COUNT_MESH_TRIANGLES] || counts[STATUS_FAILED] != 0u) return;
     bool mixed = triangle_slot[t + 1u] != triangle_slot[t];
     uint a = triangles[3u * t], b = triangles[3u * t + 1u], c = triangles[3u * t + 2u];
     uint cell = owners[a] & 0x7fffffffu;

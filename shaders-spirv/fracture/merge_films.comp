@@ -13,7 +13,6 @@ UPDATES(3, uint, parents);
 READS(4, uint, components);
 READS(5, uvec2, fates);
 READS(6, FragmentRecord, records);
-layout(push_constant) uniform Push { uint triangle_count; };
 #include "lib/piece_behind.glsl"
 
 uint cellOf(uint component) { return records[fates[component].y].fate.z; }
@@ -24,7 +23,7 @@ void main() {
     uint mine = components[t];
     if (mine == NO_INDEX) return;
     bool cap = (sources[t] & INNER_BIT) != 0u;
-    uint other = cap ? components[pieceBehind(t, triangle_count + counts[COUNT_FAN_TRIANGLES])] : NO_INDEX;
+    uint other = cap ? components[pieceBehind(t, counts[COUNT_MESH_TRIANGLES] + counts[COUNT_FAN_TRIANGLES])] : NO_INDEX;
     uint cell = cellOf(mine);
     bool within = other != NO_INDEX && cellOf(other) == cell;
     pieces[t].w = within ? NO_INDEX : cell;

@@ -19,7 +19,6 @@ READS(9, uint, triangle_slot);
 READS(10, uint, triangle_polygon_offsets);
 READS(11, uvec4, triples);
 WRITES(12, uint, polygon_corners); // corner k lies between sides k and k + 1
-layout(push_constant) uniform Push { uint vertex_count; };
 #include "lib/find_polygon.glsl"
 
 uint crossingOn(uint edge, uint cell, uint other) {
@@ -30,7 +29,7 @@ uint crossingOn(uint edge, uint cell, uint other) {
         uvec2 pass = crossings[c].xy;
         if (pass == uvec2(cell, other) || pass == uvec2(other, cell)) found = c;
     }
-    return found == NO_INDEX ? NO_INDEX : vertex_count + found;
+    return found == NO_INDEX ? NO_INDEX : counts[COUNT_MESH_VERTICES] + found;
 }
 
 uint tripleAt(uint triangle, uvec3 s) {
@@ -39,7 +38,7 @@ uint tripleAt(uint triangle, uvec3 s) {
     for (uint k = first; k < last; k++) {
         if (triples[k].yzw == s) found = k;
     }
-    return found == NO_INDEX ? NO_INDEX : vertex_count + counts[COUNT_CROSSINGS] + found;
+    return found == NO_INDEX ? NO_INDEX : counts[COUNT_MESH_VERTICES] + counts[COUNT_CROSSINGS] + found;
 }
 
 void main() {

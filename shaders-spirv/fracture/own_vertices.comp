@@ -17,13 +17,12 @@ WRITES(7, uint, owners); // top bit: some other site is exactly as near
 layout(push_constant) uniform Push {
     ivec4 bins;
     ivec4 box_low;
-    uint length;
 };
 #include "lib/bin_lines.glsl"
 
 void main() {
     uint v = flatIndex();
-    if (v >= length || counts[STATUS_FAILED] != 0u) return;
+    if (v >= counts[COUNT_MESH_VERTICES] || counts[STATUS_FAILED] != 0u) return;
     ivec3 p = grid_vertices[v].xyz;
     uint at = bin_start[binIndex(max(binOf(p), ivec3(0)), p)], end = bin_start[binIndex(bins.xyz - 1, p) + 1u];
     uint own = uint(bin_sites[min(at, max(end, 1u) - 1u)].w); // the last of its tile where no bin further on has any

@@ -13,13 +13,12 @@ READS(4, uvec2, mesh_edges);
 READS(5, uvec4, crossings);
 WRITES(6, uint, points);
 WRITES(7, vec4, positions);
-layout(push_constant) uniform Push { uint vertex_count; };
 #include "lib/place.glsl"
 
 vec3 modelVertex(uint v) { return vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]); }
 
 void main() {
-    uint id = flatIndex();
+    uint id = flatIndex(), vertex_count = counts[COUNT_MESH_VERTICES];
     if (id >= vertex_count + counts[COUNT_CROSSINGS] || counts[STATUS_FAILED] != 0u) return;
     bool vertex = id < vertex_count;
     uvec4 crossing = vertex ? uvec4(0u) : crossings[id - vertex_count];

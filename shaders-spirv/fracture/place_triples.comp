@@ -15,7 +15,6 @@ READS(4, uint, triangles);
 READS(5, uvec4, triples);
 WRITES(6, uint, points);
 WRITES(7, vec4, positions);
-layout(push_constant) uniform Push { uint vertex_count; };
 #include "lib/place.glsl"
 
 vec3 modelVertex(uint v) { return vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]); }
@@ -60,7 +59,7 @@ void main() {
         precise vec3 q = pa + fractionToFloat(t) * (pb - pa);
         p = t == (uint64_t(1) << 32) ? pb : q;
     }
-    uint id = vertex_count + counts[COUNT_CROSSINGS] + k;
+    uint id = counts[COUNT_MESH_VERTICES] + counts[COUNT_CROSSINGS] + k;
     savePoint(id, x, y, z);
     positions[id] = vec4(p, 0.0);
 }

@@ -10,10 +10,7 @@ READS(1, ivec4, sites);
 READS(2, uvec4, vertex_sites);
 WRITES(3, uint, points);
 WRITES(4, vec4, positions);
-layout(push_constant) uniform Push {
-    uint vertex_count;
-    float step_size; // model units per grid step
-};
+layout(push_constant) uniform Push { float step_size; }; // model units per grid step
 #include "lib/place.glsl"
 #include "lib/quotient.glsl"
 #include "lib/tile.glsl"
@@ -37,7 +34,7 @@ void main() {
     for (uint k = 0u; k < ROLLED(3); k++) {
         x[k] = quotientOf(turned ? wideNegate(t.moment[k]) : t.moment[k], den, POINT_FRACTION_BITS) + (int64_t(q[k]) << POINT_FRACTION_BITS);
     }
-    uint id = vertex_count + counts[COUNT_CROSSINGS] + counts[COUNT_TRIPLES] + v;
+    uint id = counts[COUNT_MESH_VERTICES] + counts[COUNT_CROSSINGS] + counts[COUNT_TRIPLES] + v;
     savePoint(id, x[0], x[1], x[2]);
     positions[id] = vec4(toModel(x[0], tile.x), toModel(x[1], tile.y), toModel(x[2], tile.z), 0.0);
 }

@@ -6,19 +6,17 @@
 #include "lib/tile.glsl"
 
 FLAT_KERNEL;
-READS(0, float, mesh_positions);
-WRITES(1, ivec4, grid_vertices);
+READS(0, uint, counts);
+READS(1, float, mesh_positions);
+WRITES(2, ivec4, grid_vertices);
 #ifdef TILED
-READS(2, uint, vertex_tiles); // numbers
+READS(3, uint, vertex_tiles); // numbers
 #endif
-layout(push_constant) uniform Push {
-    uint length;
-    float scale; // grid steps per model unit
-};
+layout(push_constant) uniform Push { float scale; }; // grid steps per model unit
 
 void main() {
     uint v = flatIndex();
-    if (v >= length) return;
+    if (v >= counts[COUNT_MESH_VERTICES]) return;
     precise vec3 p = vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]) * scale;
     ivec3 corner = ivec3(0);
 #ifdef TILED

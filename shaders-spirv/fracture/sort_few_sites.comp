@@ -22,7 +22,6 @@ WRITES(6, uint, args);
 layout(push_constant) uniform Push {
     ivec4 bins;
     ivec4 box_low; // w: tiles
-    uint site_count; // up to FEW_SITES, in no more bins
 };
 #include "lib/bin_lines.glsl"
 #include "lib/publish.glsl"
@@ -36,6 +35,8 @@ shared uint some_go;            // sites without a place, or with one that may b
 
 void sync() { barrier(); }
 #include "lib/sum_before.glsl"
+
+uint site_count; // that were asked for: up to FEW_SITES, in no more bins
 
 uint binCount() { return uint(bins.x * bins.y * bins.z * box_low.w); }
 ivec3 placeOf(uint s) { return ivec3(int(raw_sites[3u * s]), int(raw_sites[3u * s + 1u]), int(raw_sites[3u * s + 2u])); }
@@ -162,6 +163,7 @@ void writeSites(uint lane) {
 }
 
 void main() {
+    site_count = counts[STATUS_FAILED] == 0u ? counts[COUNT_ASKED_SITES] : 0u;
     uint lane = gl_LocalInvocationID.x, total = site_count;
     countBins(lane);
     sumBins(lane);

@@ -22,7 +22,7 @@ void loadChunk(uint first) {
 }
 
 void beginSearch(uint lane, ivec3 site) {
-    site_total = min(slots, counts[COUNT_SITES]);
+    site_total = counts[COUNT_SITES];
     near_pass = true;
     near_square = 2.0 * float(bins.w) * float(bins.w);
     loadChunk(0u);

@@ -1,4 +1,4 @@
-// Publishes a count that is a weighted sum of others and a constant.
+// Publishes a count that is a weighted sum of others.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -9,15 +9,15 @@ WRITES(1, uint, args);
 layout(push_constant) uniform Push {
     uint count;
     uint capacity;
-    uint constant;
-    uint pad;
+    uint pad0;
+    uint pad1;
     uvec4 terms; // counts, or NO_INDEX
     uvec4 weights;
 };
 #include "lib/publish.glsl"
 
 void main() {
-    uint total = constant;
+    uint total = 0u;
     for (uint k = 0u; k < 4u; k++) total += terms[k] == NO_INDEX ? 0u : counts[terms[k]] * weights[k];
     publishCount(count, total, capacity);
 }

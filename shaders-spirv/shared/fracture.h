@@ -80,7 +80,8 @@
 #define COUNT_MESH_CORNERS 53
 #define COUNT_MESH_EDGES 54
 #define COUNT_ASKED_SITES 55
-#define COUNT_TOTAL 56
+#define COUNT_BINS 56             /* of the search grid */
+#define COUNT_TOTAL 57
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL

@@ -148,8 +148,8 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
                               {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
                                cap_counts, wide, cap_slots});
             counts.publish(commands, COUNT_WIDE_FACES, n);
-            const uint32_t vertex_count = 0; // as if all corners were on Voronoi edges
-            commands.dispatchIndirect(kernel("cap_fans"), counts.groupsOf(COUNT_WIDE_FACES), vertex_count,
+            // No vertices of a mesh: as if all corners were on Voronoi edges.
+            commands.dispatchIndirect(kernel("cap_fans"), counts.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
                                       {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
                                        cap_counts, wide, large, huge, cap_slots});
         }

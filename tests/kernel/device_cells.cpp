@@ -48,12 +48,11 @@ struct CutPush {
 
 struct FilterPush {
     Int4 bins, box_low, box_high;
-    uint32_t slots, turn_budget;
+    uint32_t turn_budget;
 };
 
 struct EdgesPush {
     Int4 bins, box_low, box_high;
-    uint32_t slots;
 };
 
 // Queues and raw cells of the classes lie one after the other.
@@ -171,9 +170,9 @@ RawCells cutRaw(const SiteSet& set, Path path, brittle::Precision precision) {
     if (path == Path::FilteredTree) tree = growTree(binned.bin_sites, 12);
     const auto filter = [&](engine::Commands& commands) {
         const auto& [low, high] = set.box;
-        const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, n, 7500};
+        const FilterPush push = {binned.bins, {low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}, 7500};
         if (path == Path::FilteredEdges)
-            commands.dispatchGroups(cutter("cut_cells_edges"), n, EdgesPush{push.bins, push.box_low, push.box_high, n},
+            commands.dispatchGroups(cutter("cut_cells_edges"), n, EdgesPush{push.bins, push.box_low, push.box_high},
                                     {counts.words, sites, bin_start, bin_sites, result.raw, result.at, queue, counts.args});
         else if (path == Path::FilteredLinear)
             commands.dispatch(cutter("cut_cells_linear"), n, push,

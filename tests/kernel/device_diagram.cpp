@@ -10,7 +10,7 @@ DeviceDiagram diagramOnDevice(const reference::SiteSet& set) {
     const engine::Buffer cell_counts = blankBuffer<Word4>(n), sums = blankBuffer<Word4>(n / SCAN_BLOCK + 1);
     const engine::Buffer offsets = blankBuffer<Word4>(n + 1);
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("count_cells"), n, n, {counts.words, raw.at, raw.raw, cell_counts});
+        commands.dispatch(kernel("count_cells"), n, engine::NoPush{}, {counts.words, raw.at, raw.raw, cell_counts});
         scan(commands, counts, n, cell_counts, sums, offsets, true,
              {COUNT_NEIGHBORS, COUNT_CORNERS, COUNT_VORONOI_VERTICES, COUNT_VORONOI_EDGES});
     });
@@ -22,7 +22,7 @@ DeviceDiagram diagramOnDevice(const reference::SiteSet& set) {
     const engine::Buffer face_cells = blankBuffer<uint32_t>(counts[COUNT_NEIGHBORS] + 1);
     const engine::Buffer ends = blankBuffer<Word2>(counts[COUNT_VORONOI_EDGES] + 1);
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("gather_cells"), n, n,
+        commands.dispatch(kernel("gather_cells"), n, engine::NoPush{},
                           {counts.words, raw.at, raw.raw, offsets, neighbors, corners, info, vertices, ends, face_cells});
         commands.dispatch(kernel("link_edges"), counts[COUNT_VORONOI_EDGES], engine::NoPush{},
                           {counts.words, offsets, corners, info, edges, ends});

@@ -1,5 +1,6 @@
 #include "tests/kernel/device_event.h"
 
+#include "modules/brittle/fracture/known_counts.h"
 #include "modules/brittle/fracture/upload.h"
 #include "modules/brittle/mesh/primitives.h"
 
@@ -113,7 +114,10 @@ void DeviceEvent::upload(engine::Commands& commands, engine::Buffer& staging) co
     for (const Double3& site : local_sites_)
         sites.push_back(brittle::snapToGrid(grid_, site));
     const std::vector<uint32_t> placed(sites.size(), 1);
+    const brittle::KnownCounts known =
+        brittle::knownCounts(solid_.mesh, solid_.topology, capacity_.sites, capacity_.bins, GROUP_SIZE);
     brittle::Upload upload;
+    known.addTo(upload, buffers_.counts, buffers_.args);
     upload.add(std::span(solid_.mesh.positions), buffers_.mesh_positions);
     upload.add(std::span(solid_.mesh.triangles), buffers_.mesh_triangles);
     upload.add(std::span(solid_.topology.triangle_edges), buffers_.triangle_edges);

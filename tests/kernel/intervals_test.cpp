@@ -75,6 +75,7 @@ Found findOnDevice(const std::vector<Edge>& edges) {
     const EdgeBuffers b = buffersOf(edges);
     const uint32_t n = static_cast<uint32_t>(edges.size()), triples = static_cast<uint32_t>(b.signs.size());
     Counts counts;
+    counts[COUNT_MESH_VERTICES] = kVertices;
     counts[COUNT_VORONOI_EDGES] = n;
     counts[COUNT_TRIPLES] = triples;
     const engine::Buffer cells = bufferOf<Word4>({{0, 0, 0, 0}, {2, 0, 0, 0}, {4, 0, 0, 0}, {6, 0, 0, 0}});
@@ -86,7 +87,7 @@ Found findOnDevice(const std::vector<Edge>& edges) {
     const engine::Buffer segments = blankBuffer<Word4>(kRoom);
     onDevice([&](engine::Commands& commands) {
         for (const uint32_t fill : {0u, 1u}) {
-            commands.dispatch(kernel("cap_intervals", {fill}), n, kVertices,
+            commands.dispatch(kernel("cap_intervals", {fill}), n, engine::NoPush{},
                               {counts.words, cells, neighbors, sites, ends, links, triple_offsets, ordered, signs, made,
                                offsets, fill == 0 ? face_counts : cursors, face_offsets, segments});
             if (fill == 1) break;

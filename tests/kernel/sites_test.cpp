@@ -137,9 +137,10 @@ TEST(SmallSites, WithoutAPlaceAreCountedAndLeftOut) {
             expected.push_back(s % 7 != 3 && s % 5 != 4 ? 1 : 0);
         }
         Counts counts;
+        counts[COUNT_ASKED_SITES] = count;
         const engine::Buffer in = bufferOf(welded), here = bufferOf(placed), flags = blankBuffer<uint32_t>(count);
         onDevice([&](engine::Commands& commands) {
-            commands.dispatch(kernel("flag_sites"), count, count, {counts.words, in, here, flags});
+            commands.dispatch(kernel("flag_sites"), count, engine::NoPush{}, {counts.words, in, here, flags});
         });
         EXPECT_EQ(valuesOf<uint32_t>(flags, count), expected);
         EXPECT_EQ(counts[STATUS_UNPLACED], count / 5);

@@ -4,6 +4,7 @@
 #include "modules/brittle/fracture/batch.h"
 #include "modules/brittle/fracture/event.h"
 #include "modules/brittle/fracture/group_size.h"
+#include "modules/brittle/fracture/known_counts.h"
 #include "modules/brittle/fracture/readback.h"
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
@@ -284,6 +285,8 @@ private:
         Upload upload;
         std::vector<float> attributes;
         std::vector<uint32_t> placed;
+        const KnownCounts known = knownCounts(mesh, topology, capacity.sites, capacity.bins, group_size_);
+        known.addTo(upload, b.counts, b.args);
         addMesh(upload, mesh, topology, attributes, b);
         addSites(upload, p, placed, b);
         auto staging = upload.stage(device_);

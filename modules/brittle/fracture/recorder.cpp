@@ -27,12 +27,13 @@ void Recorder::scan(Length length, engine::BufferView values, engine::BufferView
     } apply = {length.known, length.count, {0, 0}, published};
     std::string_view first = four_channels ? "scan_reduce4" : "scan_reduce",
                      second = four_channels ? "scan_apply4" : "scan_apply";
+    const bool many_blocks = length.most > SCAN_BLOCK; // the first one looks at no sums
     if (length.count == NO_INDEX) {
-        uint32_t blocks = (length.known + SCAN_BLOCK - 1) / SCAN_BLOCK;
-        if (blocks > 1) runGroups(first, blocks, reduce, {counts_, values, sums}); // the first block looks at no sums
+        const uint32_t blocks = (length.known + SCAN_BLOCK - 1) / SCAN_BLOCK;
+        if (many_blocks) runGroups(first, blocks, reduce, {counts_, values, sums});
         runGroups(second, blocks, apply, {counts_, values, sums, offsets, args_});
     } else {
-        runGroups(first, blocksOf(length.count), reduce, {counts_, values, sums});
+        if (many_blocks) runGroups(first, blocksOf(length.count), reduce, {counts_, values, sums});
         runGroups(second, blocksOf(length.count), apply, {counts_, values, sums, offsets, args_});
     }
 }
@@ -64,6 +65,19 @@ void Recorder::publish(uint32_t count, uint32_t capacity) {
         uint32_t count, capacity;
     } push = {count, capacity};
     runGroups("publish_count", 1, push, {counts_, args_});
+}
+
+void Recorder::publishSum(uint32_t count, uint32_t capacity, std::initializer_list<Term> terms) {
+    struct Push {
+        uint32_t count, capacity, pad[2];
+        std::array<uint32_t, 4> terms, weights;
+    } push = {count, capacity, {0, 0}, {NO_INDEX, NO_INDEX, NO_INDEX, NO_INDEX}, {0, 0, 0, 0}};
+    size_t k = 0;
+    for (const Term& term : terms) {
+        push.terms.at(k) = term.count;
+        push.weights.at(k++) = term.times;
+    }
+    runGroups("publish_sum", 1, push, {counts_, args_});
 }
 
 void Recorder::compact(Length length, engine::BufferView offsets, engine::BufferView list) {

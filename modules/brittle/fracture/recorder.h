@@ -19,12 +19,13 @@ struct Published {
     std::array<uint32_t, 4> capacity = {NO_INDEX, NO_INDEX, NO_INDEX, NO_INDEX};
 };
 
-// How many elements: known to the host, or held by a count.
+// How many elements: known to the host, or held by a count, of which the host may know the most that it can be.
 struct Length {
     uint32_t known = 0;
     uint32_t count = NO_INDEX;
-    static Length of(uint32_t n) { return {n, NO_INDEX}; }
-    static Length counted(uint32_t index) { return {0, index}; }
+    uint32_t most = NO_INDEX;
+    static Length of(uint32_t n) { return {n, NO_INDEX, n}; }
+    static Length counted(uint32_t index, uint32_t most = NO_INDEX) { return {0, index, most}; }
 };
 
 // What a radix sort needs next to keys and values.
@@ -62,13 +63,18 @@ public:
     // offsets[k] = values[0] + ... + values[k - 1]; one more offset than values. Four channels: values are uvec4.
     void scan(Length length, engine::BufferView values, engine::BufferView sums, engine::BufferView offsets,
               const Published& published, bool four_channels = false);
-    // Sorts two lists by the low `bits` of the keys, stably; `count` says how long they are. The second pair of lists is room to
-    // work in, the outcome lies in the first.
+    // Sorts two lists by the low `bits` of the keys, stably; `count` says how long they are. The second pair of lists is room
+    // to work in, the outcome lies in the first.
     void sort(uint32_t count, uint32_t bits, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2],
               const RadixBuffers& room);
     void clear(Views views);
     // Makes a count that kernels built with atomics known to dispatches.
     void publish(uint32_t count, uint32_t capacity);
+    // Publishes a sum of up to four other counts, each so many times.
+    struct Term {
+        uint32_t count, times;
+    };
+    void publishSum(uint32_t count, uint32_t capacity, std::initializer_list<Term> terms);
     // list[...] = the elements where `offsets` steps up.
     void compact(Length length, engine::BufferView offsets, engine::BufferView list);
 

@@ -30,29 +30,18 @@ void recordWelding(const Event& e) {
 
 void recordPlaces(const Event& e) {
     const auto& b = e.b;
-    const Capacities& c = e.capacity;
     Recorder& r = e.record;
-    struct PublishPush {
-        uint32_t count, capacity, constant, pad, terms[4], weights[4];
-    };
     r.commands().beginLabel("place_vertices");
     r.clear({b.point_table, b.shared_points});
-    PublishPush outer = {COUNT_ROUND, NO_INDEX, c.vertices, 0, {COUNT_CROSSINGS, NO_INDEX, NO_INDEX, NO_INDEX}, {1, 0, 0, 0}};
-    r.runGroups("publish_sum", 1, outer, {r.counts(), r.args()});
-    r.run("place_crossings", Length::counted(COUNT_ROUND), c.vertices,
+    r.publishSum(COUNT_ROUND, NO_INDEX, {{COUNT_MESH_VERTICES, 1}, {COUNT_CROSSINGS, 1}});
+    r.run("place_crossings", Length::counted(COUNT_ROUND), engine::NoPush{},
           {r.counts(), b.sites, b.grid_vertices, b.mesh_positions, b.mesh_edges, b.crossings, b.points, b.positions});
-    r.run("place_triples", Length::counted(COUNT_TRIPLES), c.vertices,
+    r.run("place_triples", Length::counted(COUNT_TRIPLES), engine::NoPush{},
           {r.counts(), b.sites, b.grid_vertices, b.mesh_positions, b.mesh_triangles, b.triples, b.points, b.positions});
-    struct VoronoiPush {
-        uint32_t vertex_count;
-        float step;
-    } voronoi = {c.vertices, e.grid.step};
-    r.run("place_voronoi", Length::counted(COUNT_VORONOI_VERTICES), voronoi,
+    r.run("place_voronoi", Length::counted(COUNT_VORONOI_VERTICES), e.grid.step,
           {r.counts(), b.sites, b.vertex_sites, b.points, b.positions});
-    PublishPush all = {
-        COUNT_POINTS, c.points(), c.vertices, 0, {COUNT_CROSSINGS, COUNT_TRIPLES, COUNT_VORONOI_VERTICES, NO_INDEX},
-        {1, 1, 1, 0}};
-    r.runGroups("publish_sum", 1, all, {r.counts(), r.args()});
+    r.publishSum(COUNT_POINTS, e.capacity.points(),
+                 {{COUNT_MESH_VERTICES, 1}, {COUNT_CROSSINGS, 1}, {COUNT_TRIPLES, 1}, {COUNT_VORONOI_VERTICES, 1}});
     recordWelding(e);
     r.commands().endLabel();
 }
@@ -91,7 +80,7 @@ void recordSegments(const Event& e) {
     const auto& depths = kDepthRounds % 2 == 0 ? b.links : b.other_links;
     for (uint32_t pass : {kCount, kFill}) {
         const auto& faces = pass == kCount ? b.face_counts : b.face_cursors;
-        r.run("cap_intervals", Length::counted(COUNT_VORONOI_EDGES), c.vertices,
+        r.run("cap_intervals", Length::counted(COUNT_VORONOI_EDGES), engine::NoPush{},
               {r.counts(), b.cell_offsets, b.neighbors, b.edge_sites, b.edge_ends, depths, b.edge_triple_offsets,
                b.ordered_triples, b.triple_signs, b.interval_counts, b.interval_offsets, faces, b.face_offsets, b.segments},
               pass);
@@ -126,7 +115,7 @@ void recordExactCaps(const Event& e) {
           {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
            b.loose_caps, b.cap_counts, b.wide_faces, b.cap_slots});
     r.publish(COUNT_WIDE_FACES, c.neighbors);
-    r.runGroups("cap_fans", r.groupsOf(COUNT_WIDE_FACES), c.vertices,
+    r.runGroups("cap_fans", r.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
                 {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
                  b.loose_caps, b.cap_counts, b.wide_faces, b.large_faces, b.huge_faces, b.cap_slots});
     r.publish(COUNT_LARGE_FACES, c.neighbors);

@@ -12,12 +12,11 @@ struct CutPush {
 
 struct FastPush {
     Int4 bins, box_low, box_high;
-    uint32_t slots, turn_budget;
+    uint32_t turn_budget;
 };
 
 struct EdgesPush {
     Int4 bins, box_low, box_high;
-    uint32_t slots;
 };
 
 CutPush cutPush(const Event& e, uint32_t size_class) {
@@ -53,8 +52,8 @@ void recordEdges(const Event& e, const EdgesPush& push) {
 
 void recordFiltered(const Event& e, const FastPush& push) {
     const auto& b = e.b;
-    if (e.options.cells == CellMapping::Edges) return recordEdges(e, {push.bins, push.box_low, push.box_high, push.slots});
-    const Length sites = Length::of(e.capacity.sites);
+    if (e.options.cells == CellMapping::Edges) return recordEdges(e, {push.bins, push.box_low, push.box_high});
+    const Length sites = Length::counted(COUNT_SITES);
     switch (e.search) {
     case Search::Linear:
         return e.record.run("cut_cells_linear", sites, push,
@@ -75,7 +74,6 @@ void recordCutting(const Event& e) {
     FastPush fast = {e.grid.bins,
                      {e.grid.box_low[0], e.grid.box_low[1], e.grid.box_low[2], 0},
                      {e.grid.box_high[0], e.grid.box_high[1], e.grid.box_high[2], 0},
-                     e.capacity.sites,
                      e.turn_budget};
     recordFiltered(e, fast);
     const Capacities& c = e.capacity;
@@ -89,12 +87,13 @@ namespace {
 void recordPacking(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
-    e.record.run("count_cells", Length::of(c.sites), c.sites, {e.record.counts(), b.cell_raw, b.raw, b.cell_counts});
-    e.record.scan(Length::of(c.sites), b.cell_counts, b.sums, b.cell_offsets,
+    const Length sites = Length::counted(COUNT_SITES, c.sites);
+    e.record.run("count_cells", sites, engine::NoPush{}, {e.record.counts(), b.cell_raw, b.raw, b.cell_counts});
+    e.record.scan(sites, b.cell_counts, b.sums, b.cell_offsets,
                   {{COUNT_NEIGHBORS, COUNT_CORNERS, COUNT_VORONOI_VERTICES, COUNT_VORONOI_EDGES},
                    {c.neighbors, c.corners, c.voronoi_vertices, c.voronoi_edges}},
                   true);
-    e.record.run("gather_cells", Length::of(c.sites), c.sites,
+    e.record.run("gather_cells", sites, engine::NoPush{},
                  {e.record.counts(), b.cell_raw, b.raw, b.cell_offsets, b.neighbors, b.corners, b.corner_info, b.vertex_sites,
                   b.edge_ends, b.face_cells});
     e.record.run("link_edges", Length::counted(COUNT_VORONOI_EDGES), engine::NoPush{},

@@ -11,20 +11,20 @@ void recordOwners(const Event& e) {
     const EventGrid& g = e.grid;
     struct Push {
         Int4 bins, low;
-        uint32_t length;
-    } push = {g.bins, {g.box_low[0], g.box_low[1], g.box_low[2], 0}, e.capacity.vertices};
+    } push = {g.bins, withLast(g.box_low, 0)};
     e.record.run(
-        "own_vertices", Length::of(e.capacity.vertices), push,
+        "own_vertices", Length::counted(COUNT_MESH_VERTICES), push,
         {e.record.counts(), b.sites, b.bin_start, b.bin_sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.owners});
 }
 
 void recordCrossings(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
-    e.record.run("flag_edges", Length::of(c.edges), c.edges, {b.mesh_edges, b.owners, b.edge_flags});
-    e.record.scan(Length::of(c.edges), b.edge_flags, b.sums, b.edge_slot,
+    const Length edges = Length::counted(COUNT_MESH_EDGES, c.edges);
+    e.record.run("flag_edges", edges, engine::NoPush{}, {e.record.counts(), b.mesh_edges, b.owners, b.edge_flags});
+    e.record.scan(edges, b.edge_flags, b.sums, b.edge_slot,
                   {{COUNT_MIXED_EDGES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.edges, 0, 0, 0}});
-    e.record.compact(Length::of(c.edges), b.edge_slot, b.mixed_edges);
+    e.record.compact(edges, b.edge_slot, b.mixed_edges);
     for (uint32_t pass : {kCount, kFill}) {
         e.record.run("cross_edges", Length::counted(COUNT_MIXED_EDGES), engine::NoPush{},
                      {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_edges, b.owners,
@@ -39,11 +39,12 @@ void recordCrossings(const Event& e) {
 void recordMixedTriangles(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
-    e.record.run("classify_triangles", Length::of(c.triangles), c.triangles,
-                 {b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot, b.triangle_flags});
-    e.record.scan(Length::of(c.triangles), b.triangle_flags, b.sums, b.triangle_slot,
+    const Length triangles = Length::counted(COUNT_MESH_TRIANGLES, c.triangles);
+    e.record.run("classify_triangles", triangles, engine::NoPush{},
+                 {e.record.counts(), b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot, b.triangle_flags});
+    e.record.scan(triangles, b.triangle_flags, b.sums, b.triangle_slot,
                   {{COUNT_MIXED_TRIANGLES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.triangles, 0, 0, 0}});
-    e.record.compact(Length::of(c.triangles), b.triangle_slot, b.mixed_triangles);
+    e.record.compact(triangles, b.triangle_slot, b.mixed_triangles);
 }
 
 struct PairPush {
@@ -84,7 +85,7 @@ void recordPolygons(const Event& e) {
                   {{COUNT_SIDES, COUNT_TRIPLES, NO_INDEX, COUNT_FAN_TRIANGLES}, {c.sides, c.triples, NO_INDEX, c.fans}}, true);
     e.record.run("list_triples", Length::counted(COUNT_POLYGONS), c.sides_per_polygon,
                  {e.record.counts(), b.polygons, b.polygon_offsets, b.pair_sides, b.polygon_sides, b.triples, b.triple_signs});
-    e.record.run("number_corners", Length::counted(COUNT_POLYGONS), c.vertices,
+    e.record.run("number_corners", Length::counted(COUNT_POLYGONS), engine::NoPush{},
                  {e.record.counts(), b.polygons, b.polygon_offsets, b.polygon_sides, b.mesh_triangles, b.triangle_edges,
                   b.edge_slot, b.crossing_offsets, b.crossings, b.triangle_slot, b.triangle_polygon_offsets, b.triples,
                   b.polygon_corners});

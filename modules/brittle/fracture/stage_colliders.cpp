@@ -12,12 +12,7 @@ namespace {
 float fineOf(const Event& e) { return e.grid.scale * static_cast<float>(1 << HEIGHT_BITS); }
 
 // As many colliders as fragments, if there is room.
-void recordCount(const Event& e) {
-    struct SumPush {
-        uint32_t count, capacity, constant, pad, terms[4], weights[4];
-    } push = {COUNT_COLLIDERS, e.capacity.colliders, 0, 0, {COUNT_FRAGMENTS, NO_INDEX, NO_INDEX, NO_INDEX}, {1, 0, 0, 0}};
-    e.record.runGroups("publish_sum", 1, push, {e.record.counts(), e.record.args()});
-}
+void recordCount(const Event& e) { e.record.publishSum(COUNT_COLLIDERS, e.capacity.colliders, {{COUNT_FRAGMENTS, 1}}); }
 
 void recordMeasures(const Event& e) {
     const auto& b = e.b;

@@ -11,22 +11,18 @@ void recordPieces(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
-    r.run("list_whole", Length::of(c.triangles), c.triangles,
+    r.run("list_whole", Length::counted(COUNT_MESH_TRIANGLES), engine::NoPush{},
           {r.counts(), b.mesh_triangles, b.owners, b.triangle_slot, b.welded, b.pieces, b.sources, b.parents});
-    r.run("list_fans", Length::counted(COUNT_POLYGONS), c.triangles,
+    r.run("list_fans", Length::counted(COUNT_POLYGONS), engine::NoPush{},
           {r.counts(), b.polygons, b.polygon_offsets, b.polygon_corners, b.welded, b.pieces, b.sources, b.parents});
     struct CapPush {
-        uint32_t triangle_count;
         float unit, step;
-    } caps = {c.triangles, e.grid.unit(), EventGrid::kStep};
+    } caps = {e.grid.unit(), EventGrid::kStep};
     r.run("list_caps", Length::counted(COUNT_FACES), caps,
           {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources,
            b.parents, b.shared_points, b.suspects, b.positions, b.cap_slots});
-    struct SumPush {
-        uint32_t count, capacity, constant, pad, terms[4], weights[4];
-    } total = {COUNT_TRIANGLES, c.pieces, c.triangles, 0, {COUNT_FAN_TRIANGLES, COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX},
-               {1, 2, 0, 0}};
-    r.runGroups("publish_sum", 1, total, {r.counts(), r.args()});
+    r.publishSum(COUNT_TRIANGLES, e.capacity.pieces,
+                 {{COUNT_MESH_TRIANGLES, 1}, {COUNT_FAN_TRIANGLES, 1}, {COUNT_CAP_TRIANGLES, 2}});
 }
 
 void recordFlaps(const Event& e) {
@@ -34,10 +30,7 @@ void recordFlaps(const Event& e) {
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.clear({b.flap_table});
-    struct SumPush {
-        uint32_t count, capacity, constant, pad, terms[4], weights[4];
-    } sides = {COUNT_SUSPECT_SIDES, c.flap_sides, 0, 0, {COUNT_SUSPECTS, NO_INDEX, NO_INDEX, NO_INDEX}, {2, 0, 0, 0}};
-    r.runGroups("publish_sum", 1, sides, {r.counts(), r.args()});
+    r.publishSum(COUNT_SUSPECT_SIDES, c.flap_sides, {{COUNT_SUSPECTS, 2}});
     r.run("find_flaps", Length::counted(COUNT_SUSPECT_SIDES), c.flapTable() - 1,
           {r.counts(), b.suspects, b.pieces, b.flap_table, b.flap_slots});
     r.run("pair_flaps", Length::counted(COUNT_SUSPECT_SIDES), engine::NoPush{},
@@ -89,9 +82,9 @@ void recordJoining(const Event& e, uint32_t first_round) {
     Recorder& r = e.record;
     for (uint32_t round = first_round; round < first_round + kFilmRounds; round++) {
         struct Push {
-            uint32_t triangle_count, round;
+            uint32_t round;
             float unit, step;
-        } push = {e.capacity.triangles, round, e.grid.unit(), EventGrid::kStep};
+        } push = {round, e.grid.unit(), EventGrid::kStep};
         r.runGroups("join_films", r.groupsOf(COUNT_FILMS), push,
                     {r.counts(), b.films, b.component_start, b.values, b.pieces, b.sources, b.parents, b.components,
                      b.positions, b.records, b.sites, b.cell_offsets, b.neighbors, b.fates});
@@ -127,7 +120,7 @@ void recordReunion(const Event& e) {
         uint32_t count, source, condition;
     } again = {COUNT_AGAIN, COUNT_TRIANGLES, COUNT_FILMS}, sort = {COUNT_SORT, COUNT_VALID, COUNT_AGAIN};
     r.runGroups("publish_if", 1, again, {r.counts(), r.args()});
-    r.run("merge_films", Length::counted(COUNT_AGAIN), e.capacity.triangles,
+    r.run("merge_films", Length::counted(COUNT_AGAIN), engine::NoPush{},
           {r.counts(), b.pieces, b.sources, b.parents, b.components, b.fates, b.records});
     recordUnion(e, COUNT_AGAIN);
     r.runGroups("publish_if", 1, sort, {r.counts(), r.args()});
@@ -204,10 +197,7 @@ void recordEmission(const Event& e) {
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.commands().beginLabel("allocate");
-    struct Push {
-        uint32_t triangle_count, own_triangles;
-    } push = {c.triangles, e.mesh.own_triangles};
-    r.run("classify_pieces", Length::counted(COUNT_VALID), push,
+    r.run("classify_pieces", Length::counted(COUNT_VALID), engine::NoPush{},
           {r.counts(), b.values, b.sources, b.components, b.fates, b.classes, b.parents});
     r.scan(Length::counted(COUNT_VALID), b.classes, b.sums, b.class_offsets, {}, true);
     r.run("allocate", Length::counted(COUNT_COMPONENTS), engine::NoPush{},

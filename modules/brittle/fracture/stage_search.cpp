@@ -14,7 +14,7 @@ uint32_t treeLevels(uint32_t sites) {
 
 void recordLevels(const Event& e) {
     const auto& b = e.b;
-    const Length sites = Length::of(e.capacity.sites);
+    const Length sites = Length::counted(COUNT_SITES);
     for (uint32_t level = 0; level < treeLevels(e.capacity.sites); level++) {
         e.record.run("spread_tree", sites, level, {e.record.counts(), b.bin_sites, b.tree, b.tree_path, b.tree_bids});
         e.record.run("grow_tree", sites, engine::NoPush{}, {e.record.counts(), b.bin_sites, b.tree, b.tree_path, b.tree_bids});
@@ -23,7 +23,7 @@ void recordLevels(const Event& e) {
 
 void recordLeaves(const Event& e) {
     const auto& b = e.b;
-    const Length sites = Length::of(e.capacity.sites);
+    const Length sites = Length::counted(COUNT_SITES, e.capacity.sites);
     e.record.run("count_leaves", sites, engine::NoPush{}, {e.record.counts(), b.bin_sites, b.tree, b.tree_path, b.leaf_counts});
     e.record.scan(sites, b.leaf_counts, b.sums, b.leaf_start, {});
     e.record.run("list_leaves", sites, engine::NoPush{},

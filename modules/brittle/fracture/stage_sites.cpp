@@ -68,44 +68,39 @@ void recordPlacement(const Event& e) {
 }
 
 void recordSiteWelding(const Event& e) {
-    uint32_t n = e.capacity.sites;
+    const uint32_t n = e.capacity.sites;
+    const Length asked = Length::counted(COUNT_ASKED_SITES, n);
     struct WeldPush {
         uint32_t length, length_count, table_mask;
-    } weld = {n, NO_INDEX, static_cast<uint32_t>(e.b.site_table.size / 4) - 1};
-    e.record.run("weld_sites", Length::of(n), weld, {e.record.counts(), e.b.raw_sites, e.b.site_table, e.b.site_slots});
+    } weld = {0, COUNT_ASKED_SITES, static_cast<uint32_t>(e.b.site_table.size / 4) - 1};
+    e.record.run("weld_sites", asked, weld, {e.record.counts(), e.b.raw_sites, e.b.site_table, e.b.site_slots});
     struct ResolvePush {
         uint32_t length, length_count;
-    } resolve = {n, NO_INDEX};
-    e.record.run("resolve_points", Length::of(n), resolve,
+    } resolve = {0, COUNT_ASKED_SITES};
+    e.record.run("resolve_points", asked, resolve,
                  {e.record.counts(), e.b.site_table, e.b.site_slots, e.b.welded_sites, e.b.site_flags});
-    e.record.run("flag_sites", Length::of(n), n, {e.record.counts(), e.b.welded_sites, e.b.placed, e.b.site_flags});
-    e.record.scan(Length::of(n), e.b.site_flags, e.b.sums, e.b.site_offsets,
+    e.record.run("flag_sites", asked, engine::NoPush{}, {e.record.counts(), e.b.welded_sites, e.b.placed, e.b.site_flags});
+    e.record.scan(asked, e.b.site_flags, e.b.sums, e.b.site_offsets,
                   {{COUNT_SITES, NO_INDEX, NO_INDEX, NO_INDEX}, {n, 0, 0, 0}});
 }
 
 void recordBinning(const Event& e) {
     const EventGrid& g = e.grid;
-    struct Push {
-        Int4 bins, low;
-        uint32_t site_count;
-    } keep = {g.bins, withLast(g.box_low, 0), e.capacity.sites};
-    e.record.run("keep_sites", Length::of(e.capacity.sites), keep,
-                 {e.b.site_offsets, e.b.raw_sites, e.b.sites, e.b.bin_counts});
-    e.record.scan(Length::of(e.capacity.bins), e.b.bin_counts, e.b.sums, e.b.bin_start, {});
+    const Length sites = Length::counted(COUNT_SITES);
     struct BinPush {
         Int4 bins, low;
     } bin = {g.bins, withLast(g.box_low, 0)};
-    e.record.run("bin_sites", Length::of(e.capacity.sites), bin,
-                 {e.record.counts(), e.b.sites, e.b.bin_start, e.b.bin_cursors, e.b.loose_sites});
-    e.record.run("order_bins", Length::of(e.capacity.sites), bin,
-                 {e.record.counts(), e.b.sites, e.b.bin_start, e.b.loose_sites, e.b.bin_sites});
+    e.record.run("keep_sites", Length::counted(COUNT_ASKED_SITES), bin,
+                 {e.record.counts(), e.b.site_offsets, e.b.raw_sites, e.b.sites, e.b.bin_counts});
+    e.record.scan(Length::counted(COUNT_BINS, e.capacity.bins), e.b.bin_counts, e.b.sums, e.b.bin_start, {});
+    e.record.run("bin_sites", sites, bin, {e.record.counts(), e.b.sites, e.b.bin_start, e.b.bin_cursors, e.b.loose_sites});
+    e.record.run("order_bins", sites, bin, {e.record.counts(), e.b.sites, e.b.bin_start, e.b.loose_sites, e.b.bin_sites});
 }
 
 void recordFewSites(const Event& e) {
     struct Push {
         Int4 bins, low;
-        uint32_t site_count;
-    } push = {e.grid.bins, withLast(e.grid.box_low, static_cast<int32_t>(e.grid.tiles)), e.capacity.sites};
+    } push = {e.grid.bins, withLast(e.grid.box_low, static_cast<int32_t>(e.grid.tiles))};
     const auto& b = e.b;
     e.record.runGroups("sort_few_sites", 1, push,
                        {e.record.counts(), b.raw_sites, b.placed, b.sites, b.bin_start, b.bin_sites, e.record.args()});
@@ -114,16 +109,13 @@ void recordFewSites(const Event& e) {
 } // namespace
 
 void recordSites(const Event& e) {
-    struct SnapPush {
-        uint32_t length;
-        float scale;
-    } snap = {e.capacity.vertices, e.grid.scale};
     e.record.commands().beginLabel("place_sites");
-    const Length vertices = Length::of(e.capacity.vertices);
+    const Length vertices = Length::counted(COUNT_MESH_VERTICES);
     if (e.grid.tiles > 1)
-        e.record.run("snap_tiles", vertices, snap, {e.b.mesh_positions, e.b.grid_vertices, e.b.vertex_tiles});
+        e.record.run("snap_tiles", vertices, e.grid.scale,
+                     {e.record.counts(), e.b.mesh_positions, e.b.grid_vertices, e.b.vertex_tiles});
     else
-        e.record.run("snap_vertices", vertices, snap, {e.b.mesh_positions, e.b.grid_vertices});
+        e.record.run("snap_vertices", vertices, e.grid.scale, {e.record.counts(), e.b.mesh_positions, e.b.grid_vertices});
     if (e.options.given_sites.empty()) recordPlacement(e);
     e.record.commands().endLabel();
     e.record.commands().beginLabel("neighbor_grid");
