@@ -26,6 +26,7 @@ void recordUntil(const brittle::Event& event, Until until) {
                                   brittle::recordClipping, brittle::recordPlaces,  brittle::recordDepth,
                                   brittle::recordCaps,     brittle::recordIslands, brittle::recordMassProperties,
                                   brittle::recordEmission};
+    brittle::recordPlacement(event);
     for (size_t stage = 0; stage <= static_cast<size_t>(until); ++stage)
         kStages[stage](event);
 }
@@ -86,9 +87,9 @@ void DeviceEvent::prepare() {
 void DeviceEvent::recordOnce(Until until) {
     engine::Device& device = engine_test::device();
     engine::ScratchArena plan = valueOf(engine::ScratchArena::create(device, 256, "plan"));
-    brittle::layOut(plan, capacity_, solid_.mesh, columns_, buffers_);
+    brittle::layOut(plan, capacity_, columns_, buffers_);
     arena_.emplace(valueOf(engine::ScratchArena::create(device, plan.peak(), "event")));
-    brittle::layOut(*arena_, capacity_, solid_.mesh, columns_, buffers_);
+    brittle::layOut(*arena_, capacity_, columns_, buffers_);
     scene_buffers_.emplace(valueOf(brittle::SceneBuffers::create(device, capacity_.emitted, capacity_.fragments)));
     pools_ = scene_buffers_->views();
     engine::Buffer staging;
@@ -96,9 +97,16 @@ void DeviceEvent::recordOnce(Until until) {
         clear(commands);
         upload(commands, staging);
         brittle::Recorder recorder(commands, kernels(), buffers_.counts, buffers_.args);
-        recordUntil(
-            {solid_.mesh, options_, grid_, columns_, capacity_, buffers_, pools_, recorder, brittle::Search::Grid, 7500},
-            until);
+        const brittle::Placement placement = {solid_.mesh, options_, columns_};
+        recordUntil({.grid = grid_,
+                     .capacity = capacity_,
+                     .b = buffers_,
+                     .scene = pools_,
+                     .record = recorder,
+                     .turn_budget = 7500,
+                     .caps = options_.caps,
+                     .placement = &placement},
+                    until);
         EXPECT_TRUE(recorder.status().has_value());
     });
     words_ = read<uint32_t>(buffers_.counts, STATUS_WORDS);

@@ -1,4 +1,5 @@
 // scan_reduce and scan_apply against a running sum; the counts and dispatch arguments they publish.
+#include "modules/brittle/fracture/known_counts.h"
 #include "tests/kernel/lab.h"
 
 #include <random>
@@ -94,6 +95,16 @@ TEST(SmallScan, PublishesTotalsAndDispatchArguments) {
         EXPECT_EQ(counts[6], offsets[4 * n + 3]);
         EXPECT_EQ(counts.argsOf(6), expectedArgs(counts[6]));
         EXPECT_EQ(counts[STATUS_FAILED], 0u);
+    }
+}
+
+TEST(SmallScan, OfAKnownCountTheHostHasTheSameArguments) {
+    for (const uint32_t n : {0u, 1u, 64u, 65u, 1024u, 1025u, 65535u, 65536u, 65535u * 64u, 65535u * 64u + 1u}) {
+        Counts counts;
+        counts[COUNT_PAIRS] = n;
+        onDevice([&](engine::Commands& commands) { counts.publish(commands, COUNT_PAIRS, NO_INDEX); });
+        const auto args = brittle::argumentsOf(n, GROUP_SIZE);
+        EXPECT_EQ(counts.argsOf(COUNT_PAIRS), std::vector<uint32_t>(args.begin(), args.end())) << n;
     }
 }
 

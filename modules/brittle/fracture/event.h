@@ -13,29 +13,49 @@ struct ScenePools {
     engine::BufferView vertices, indices, draw_commands, objects, matrices, bounds, fragments;
 };
 
-struct Event {
+// By which sites are placed in a mesh that the host has, and moved there.
+struct Placement {
     const Mesh& mesh;
     const FractureOptions& options;
-    const EventGrid& grid;
     const TriangleColumns& columns;
-    const Capacities& capacity;
-    const EventBuffers& b;
-    const ScenePools& scene;
-    Recorder& record;
-    Search search;                // never Auto
-    uint32_t turn_budget;         // loop turns of a lane of cut_cells
-    ColliderPools colliders = {}; // where they were asked for
 };
 
-// place_sites, neighbor_grid
+// The host need not know the mesh: how much there is of it, and how many sites were asked for, stands in the counts
+// (COUNT_MESH_VERTICES and those behind it), with the arguments of the dispatches over them.
+struct Event {
+    const EventGrid& grid;
+    const Capacities& capacity;
+    const EventBuffers& b;
+    ScenePools scene;
+    Recorder& record;
+    Search search = Search::Grid; // never Auto
+    uint32_t turn_budget = 0;     // loop turns of a lane of cut_cells
+    ColliderPools colliders = {}; // where they were asked for
+    CellMapping cells = CellMapping::Auto;
+    Caps caps = Caps::Exact;
+    bool only_cells = false;
+    const Placement* placement = nullptr; // where there is one
+};
+
+// Loop turns that a lane of cut_cells may take.
+uint32_t turnBudget(const engine::Device& device, uint32_t group_size, Search search, uint32_t sites);
+// Triangles that one dispatch of `emit` can reach.
+uint32_t emitWindow(const VkPhysicalDeviceLimits& limits);
+
+// Everything, once the mesh's vertices are on the grid and sites are in raw_sites.
+void recordFracture(const Event& e);
+
+// place_sites: vertices on the grid, and sites where none are given. Wants a placement.
+void recordPlacement(const Event& e);
+// neighbor_grid: welds and bins what stands in raw_sites
 void recordSites(const Event& e);
-void recordKeptSites(const Event& e); // welds and bins what stands in raw_sites
+void recordKeptSites(const Event& e); // the same without a label
 // sphere_tree
 void recordSphereTree(const Event& e);
 // cut_cells, link_cells
 void recordCutting(const Event& e);
 void recordCells(const Event& e);
-// relax_sites: one round, after which sites are welded and binned anew
+// relax_sites: one round, after which sites are welded and binned anew. Wants a placement.
 void recordRelaxation(const Event& e);
 // classify_triangles, clip_triangles
 void recordClassification(const Event& e);

@@ -29,7 +29,6 @@ private:
 
 struct Input {
     const Capacities& c;
-    const Mesh& mesh;
     const TriangleColumns& columns;
     EventBuffers& b;
 };
@@ -37,7 +36,6 @@ struct Input {
 // What is read until the end: the mesh, sites, places, and what the surface is put together from.
 void takeKept(const Input& in, Taker& take) {
     const Capacities& c = in.c;
-    const Mesh& mesh = in.mesh;
     EventBuffers& b = in.b;
     uint64_t longest = std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins},
                                  uint64_t{c.voronoi_edges}, uint64_t{c.island_pairs}});
@@ -45,9 +43,9 @@ void takeKept(const Input& in, Taker& take) {
     b.counts = take.words(STATUS_WORDS);
     b.args = take.words(9ull * COUNT_TOTAL);
     b.sums = take.quads(longest / SCAN_BLOCK + 2);
-    b.mesh_positions = take.words(3 * mesh.positions.size());
-    b.mesh_triangles = take.words(3 * mesh.triangles.size());
-    b.corner_attributes = take.words(15 * mesh.triangles.size());
+    b.mesh_positions = take.words(3ull * c.vertices);
+    b.mesh_triangles = take.words(3ull * c.triangles);
+    b.corner_attributes = take.words(15ull * c.triangles);
     b.sites = take.quads(c.sites);
     b.positions = take.quads(points);
     b.cell_offsets = take.quads(c.sites + 1ull);
@@ -71,10 +69,9 @@ void takeKept(const Input& in, Taker& take) {
 // The diagram, and where mesh and diagram cross: read until the caps are made.
 void takeDiagram(const Input& in, Taker& take) {
     const Capacities& c = in.c;
-    const Mesh& mesh = in.mesh;
     EventBuffers& b = in.b;
     uint64_t points = c.points();
-    b.triangle_edges = take.words(3 * mesh.triangles.size());
+    b.triangle_edges = take.words(3ull * c.triangles);
     b.mesh_edges = take.words(2ull * c.edges);
     b.grid_vertices = take.quads(c.vertices);
     b.vertex_tiles = take.words(c.tiled ? c.vertices : 0);
@@ -255,9 +252,8 @@ void takeColliders(const Input& in, Taker& take) {
 
 } // namespace
 
-uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
-                EventBuffers& b) {
-    const Input in = {c, mesh, columns, b};
+uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const TriangleColumns& columns, EventBuffers& b) {
+    const Input in = {c, columns, b};
     Taker take(arena);
     takeKept(in, take);
     const engine::ScratchArena::Mark until_caps = arena.mark();

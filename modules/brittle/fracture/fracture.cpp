@@ -128,17 +128,6 @@ private:
                                                               " attempts; use fewer sites or a smaller mesh"};
     }
 
-    // A subgroup of a CPU device has 65,535 turns for all its lanes; a GPU has no such limit. Fetching all sites and going
-    // through them, which the lanes do together, takes its part of them.
-    uint32_t turnBudget(Search search, uint32_t sites) const {
-        const uint32_t together = search == Search::Linear ? 2 * (sites / LINEAR_AT_ONCE + sites / group_size_ + 2) : 0;
-        return device_.isCpu() ? (60'000 - together) / device_.subgroupSize() : 1u << 20;
-    }
-    // Triangles whose vertices one binding can hold; whole multiples of any alignment of views.
-    static uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
-        uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));
-        return static_cast<uint32_t>(std::min<uint64_t>(fit, 1u << 28)) / 256 * 256;
-    }
     static engine::Error advised(engine::Error error, Precision precision) {
         if (precision == Precision::Exact || error.code == engine::ErrorCode::BadInput) return error;
         if (error.code == engine::ErrorCode::Internal) error.code = engine::ErrorCode::BadInput; // it was asked for
@@ -231,29 +220,11 @@ private:
         upload.add(std::span(p.columns.occupied), b.columns);
     }
 
-    static void recordAll(const Event& event) {
-        recordSites(event);
-        for (uint32_t round = 0; round < event.options.relax; round++)
-            recordRelaxation(event);
-        if (event.search == Search::SphereTree) recordSphereTree(event);
-        recordCells(event);
-        if (event.options.only_cells) return;
-        recordClassification(event);
-        recordClipping(event);
-        recordPlaces(event);
-        recordDepth(event);
-        recordCaps(event);
-        recordIslands(event);
-        recordMassProperties(event);
-        recordEmission(event);
-        if (event.options.collider != 0) recordColliders(event);
-    }
-
     // The general buffer is kept from event to event: fresh memory costs a page fault for every page that a kernel touches.
-    engine::Result<void> layOutArena(const Capacities& c, const Mesh& mesh, const TriangleColumns& columns, EventBuffers& b) {
+    engine::Result<void> layOutArena(const Capacities& c, const TriangleColumns& columns, EventBuffers& b) {
         auto plan = engine::ScratchArena::create(device_, 256, "plan");
         if (!plan) return plan.error();
-        const uint64_t largest = layOut(*plan, c, mesh, columns, b), most = device_.limits().maxStorageBufferRange;
+        const uint64_t largest = layOut(*plan, c, columns, b), most = device_.limits().maxStorageBufferRange;
         if (largest > most)
             return engine::Error{engine::ErrorCode::Capacity, "the event's largest list has " + megabytes(largest) +
                                                                   ", the device can bind " + megabytes(most) +
@@ -266,14 +237,14 @@ private:
             arena_ = std::move(*made);
         }
         arena_->reset();
-        layOut(*arena_, c, mesh, columns, b);
+        layOut(*arena_, c, columns, b);
         return arena_->status();
     }
 
     engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options,
                                     const Prepared& p, Capacities& capacity) {
         EventBuffers b;
-        if (auto ok = layOutArena(capacity, mesh, p.columns, b); !ok) return ok.error();
+        if (auto ok = layOutArena(capacity, p.columns, b); !ok) return ok.error();
         capacity.emit_window = emitWindow(device_.limits());
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
@@ -295,8 +266,21 @@ private:
         recorder.clear({b.counts, b.args, b.placed, b.raw_sites});
         upload.copy(commands, *staging);
         const Search search = searchOf(options, p.grid);
-        recordAll({mesh, options, p.grid, p.columns, capacity, b, scene->views(), recorder, search,
-                   turnBudget(search, capacity.sites), colliders->views()});
+        const Placement placement = {mesh, options, p.columns};
+        const Event event = {.grid = p.grid,
+                             .capacity = capacity,
+                             .b = b,
+                             .scene = scene->views(),
+                             .record = recorder,
+                             .search = search,
+                             .turn_budget = turnBudget(device_, group_size_, search, capacity.sites),
+                             .colliders = colliders->views(),
+                             .cells = options.cells,
+                             .caps = options.caps,
+                             .only_cells = options.only_cells,
+                             .placement = &placement};
+        recordPlacement(event);
+        recordFracture(event);
         if (auto ok = recorder.status(); !ok) return ok.error();
         auto start = Clock::now();
         if (auto ok = commands.submitAndWait(); !ok) return ok.error();

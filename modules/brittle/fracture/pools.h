@@ -112,7 +112,6 @@ struct EventBuffers {
 };
 
 // Returns the bytes of the largest view.
-uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Mesh& mesh, const TriangleColumns& columns,
-                EventBuffers& b);
+uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const TriangleColumns& columns, EventBuffers& b);
 
 } // namespace brittle

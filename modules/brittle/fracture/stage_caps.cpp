@@ -138,7 +138,7 @@ void recordTriangulation(const Event& e) {
     r.scan(Length::counted(COUNT_NEIGHBORS), b.face_flags, b.sums, b.face_slots,
            {{COUNT_FACES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.neighbors, 0, 0, 0}});
     r.compact(Length::counted(COUNT_NEIGHBORS), b.face_slots, b.faces);
-    if (e.options.caps == Caps::Convex)
+    if (e.caps == Caps::Convex)
         recordConvexCaps(e);
     else
         recordExactCaps(e);

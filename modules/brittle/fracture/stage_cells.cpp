@@ -52,7 +52,7 @@ void recordEdges(const Event& e, const EdgesPush& push) {
 
 void recordFiltered(const Event& e, const FastPush& push) {
     const auto& b = e.b;
-    if (e.options.cells == CellMapping::Edges) return recordEdges(e, {push.bins, push.box_low, push.box_high});
+    if (e.cells == CellMapping::Edges) return recordEdges(e, {push.bins, push.box_low, push.box_high});
     const Length sites = Length::counted(COUNT_SITES);
     switch (e.search) {
     case Search::Linear:

@@ -9,7 +9,6 @@ namespace {
 
 void recordPieces(const Event& e) {
     const auto& b = e.b;
-    const Capacities& c = e.capacity;
     Recorder& r = e.record;
     r.run("list_whole", Length::counted(COUNT_MESH_TRIANGLES), engine::NoPush{},
           {r.counts(), b.mesh_triangles, b.owners, b.triangle_slot, b.welded, b.pieces, b.sources, b.parents});

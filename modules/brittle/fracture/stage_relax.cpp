@@ -14,8 +14,9 @@ struct RelaxPush {
 void recordRelaxation(const Event& e) {
     const auto& b = e.b;
     const EventGrid& g = e.grid;
-    const RelaxPush push = {withLast(g.mesh_low, e.columns.edge), withLast(g.mesh_high, e.columns.per_row),
-                            withLast(g.box_low, 0), withLast(g.box_high, 0), e.capacity.sites};
+    const TriangleColumns& columns = e.placement->columns;
+    const RelaxPush push = {withLast(g.mesh_low, columns.edge), withLast(g.mesh_high, columns.per_row), withLast(g.box_low, 0),
+                            withLast(g.box_high, 0), e.capacity.sites};
     if (e.search == Search::SphereTree) recordSphereTree(e);
     e.record.commands().beginLabel("relax_sites");
     recordCutting(e);

@@ -23,30 +23,30 @@ double furthestPlace(const EventGrid& g, const Int3& from) {
     return std::ceil(std::sqrt(square)) + 1;
 }
 
-PlacePush placePush(const Event& e) {
+PlacePush placePush(const Event& e, const Placement& from) {
     const EventGrid& g = e.grid;
-    const Impact& impact = e.options.impact;
-    const Int3 place = snapToGrid(g, impact.place - e.mesh.center);
+    const Impact& impact = from.options.impact;
+    const Int3 place = snapToGrid(g, impact.place - from.mesh.center);
     const double furthest = furthestPlace(g, place);
     const double radius = std::clamp(impact.contact_radius * static_cast<double>(g.scale), 1.0, furthest);
-    return {withLast(g.mesh_low, e.columns.edge),
-            withLast(g.mesh_high, e.columns.per_row),
+    return {withLast(g.mesh_low, from.columns.edge),
+            withLast(g.mesh_high, from.columns.per_row),
             withLast(place, static_cast<int32_t>(radius)),
             e.capacity.sites,
-            static_cast<uint32_t>(e.columns.occupied.size()),
-            static_cast<uint32_t>(e.options.seed),
-            static_cast<uint32_t>(e.options.seed >> 32),
+            static_cast<uint32_t>(from.columns.occupied.size()),
+            static_cast<uint32_t>(from.options.seed),
+            static_cast<uint32_t>(from.options.seed >> 32),
             0,
             e.capacity.triangles,
             static_cast<uint32_t>(std::clamp(impact.favor, 0.0, 1.0) * 4294967295.0),
             static_cast<uint32_t>(furthest),
-            e.columns.tallest};
+            from.columns.tallest};
 }
 
-void recordPatternRound(const Event& e, const PlacePush& push) {
+void recordPatternRound(const Event& e, Pattern pattern, const PlacePush& push) {
     const auto& b = e.b;
     const uint32_t sites = e.capacity.sites;
-    if (e.options.pattern == Pattern::Paper)
+    if (pattern == Pattern::Paper)
         e.record.runGroups(
             "place_sites_paper", (sites + 31) / 32, push,
             {e.record.counts(), b.grid_vertices, b.mesh_triangles, b.column_start, b.column_triangles, b.raw_sites, b.placed});
@@ -56,11 +56,11 @@ void recordPatternRound(const Event& e, const PlacePush& push) {
                       b.raw_sites, b.placed});
 }
 
-void recordPlacement(const Event& e) {
-    PlacePush push = placePush(e);
-    if (e.options.pattern != Pattern::Uniform)
+void recordPatterns(const Event& e, const Placement& from) {
+    PlacePush push = placePush(e, from);
+    if (from.options.pattern != Pattern::Uniform)
         for (uint32_t round = 0; round < kPatternRounds; round++, push.first_try += TRIES_A_ROUND)
-            recordPatternRound(e, push);
+            recordPatternRound(e, from.options.pattern, push);
     for (uint32_t round = 0; round < kEvenRounds; round++, push.first_try += TRIES_A_ROUND)
         e.record.run("place_sites", Length::of(e.capacity.sites), push,
                      {e.record.counts(), e.b.grid_vertices, e.b.mesh_triangles, e.b.column_start, e.b.column_triangles,
@@ -108,7 +108,7 @@ void recordFewSites(const Event& e) {
 
 } // namespace
 
-void recordSites(const Event& e) {
+void recordPlacement(const Event& e) {
     e.record.commands().beginLabel("place_sites");
     const Length vertices = Length::counted(COUNT_MESH_VERTICES);
     if (e.grid.tiles > 1)
@@ -116,8 +116,11 @@ void recordSites(const Event& e) {
                      {e.record.counts(), e.b.mesh_positions, e.b.grid_vertices, e.b.vertex_tiles});
     else
         e.record.run("snap_vertices", vertices, e.grid.scale, {e.record.counts(), e.b.mesh_positions, e.b.grid_vertices});
-    if (e.options.given_sites.empty()) recordPlacement(e);
+    if (e.placement->options.given_sites.empty()) recordPatterns(e, *e.placement);
     e.record.commands().endLabel();
+}
+
+void recordSites(const Event& e) {
     e.record.commands().beginLabel("neighbor_grid");
     recordKeptSites(e);
     e.record.commands().endLabel();
