@@ -93,7 +93,10 @@ void main() {
         done = isInside(corner + p, ranges);
     }
     if (lane == 0u) {
+        // An object without any site would have no cell for its vertices; a site need not lie inside.
+        bool last_resort = !done && site == object.sites.x;
+        if (last_resort) p = (object.low.xyz + object.high.xyz) / 2;
         for (uint k = 0u; k < 3u; k++) raw_sites[3u * site + k] = uint(corner[k] + p[k]);
-        placed[site] = done ? 1u : 0u;
+        placed[site] = done || last_resort ? 1u : 0u;
     }
 }

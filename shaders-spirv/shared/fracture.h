@@ -112,6 +112,7 @@
 #define FAILED_CAPACITY 1u
 #define FAILED_CELLS 2u
 #define FAILED_CLIP 4u
+#define FAILED_CHECK 8u /* something went wrong that stops no kernel */
 
 // A cell as the cutting kernels leave it: planes' site ids, then corners as triples of plane indices.
 #define RAW_PLANES 64

@@ -2,12 +2,10 @@
 #include "modules/brittle/breaking/gather.h"
 #include "modules/brittle/fracture/event_grid.h"
 #include "modules/brittle/fracture/fetch.h"
-#include "modules/brittle/fracture/refracture.h"
 #include "modules/brittle/fracture/upload.h"
-#include "modules/brittle/mesh/primitives.h"
-#include "modules/brittle/mesh/vector_math.h"
 #include "tests/engine/test_device.h"
-#include "tests/module/whole_fracture.h"
+#include "tests/module/breaking_fragments.h"
+#include "tests/reference/geometry.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +14,8 @@
 
 namespace {
 
+using breaking_test::Breaking, breaking_test::hit;
 using brittle::FragmentSet, brittle::PreparedMesh;
-using brittle::operator-;
 
 // What the device made of all.
 struct Gathered {
@@ -114,43 +112,10 @@ private:
 
 constexpr float kScale = 0.5f;
 
-struct Breaking {
-    FragmentSet set;
-    std::vector<PreparedMesh> prepared; // by the host
-    std::vector<gpu::BreakingRecord> records;
-    uint32_t corners = 0;
-};
-
-// Every fragment of a broken model, about the center that the host takes.
-Breaking breakingFragments(const char* name, uint32_t sites) {
-    const whole::Model model = whole::modelFrom(name);
-    brittle::FractureOptions options;
-    options.site_count = sites;
-    auto broken = whole::fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
-    EXPECT_TRUE(broken) << broken.error().message;
-    Breaking b;
-    b.set = std::move(broken->fragments);
-    for (size_t f = 0; f < b.set.fragments.size(); ++f) {
-        auto prepared = brittle::prepareFragment(b.set, f);
-        EXPECT_TRUE(prepared) << prepared.error().message;
-        const brittle::Fragment& fragment = b.set.fragments[f];
-        const brittle::Double3 center = prepared->mesh.center - b.set.center;
-        const uint32_t own = fragment.outer_index_count - fragment.earlier_index_count;
-        const uint32_t other = fragment.earlier_index_count + fragment.inner_index_count;
-        b.records.push_back(
-            {{static_cast<float>(center[0]), static_cast<float>(center[1]), static_cast<float>(center[2]), kScale},
-             {fragment.first_vertex, own, other, b.corners}});
-        b.corners += own + other;
-        b.prepared.push_back(std::move(*prepared));
-    }
-    return b;
-}
+Breaking scaledFragments(const char* model, uint32_t sites) { return breaking_test::breakingFragments(model, sites, kScale); }
 
 brittle::Float3 scaledPlace(const PreparedMesh& mesh, uint32_t vertex) {
-    brittle::Float3 p = mesh.mesh.positions[vertex];
-    for (float& x : p)
-        x *= kScale;
-    return p;
+    return breaking_test::scaledPlace(mesh, vertex, kScale);
 }
 
 // Triangles of the host, all objects' own ones first, then all others: places of corners and attributes.
@@ -217,34 +182,8 @@ void expectAsOnTheHost(const Breaking& breaking) {
     expectGrid(breaking, out);
 }
 
-TEST(SmallGather, MakesTheMeshThatTheHostWouldMake) { expectAsOnTheHost(breakingFragments("builtin:ring", 7)); }
-TEST(Gather, MakesTheMeshesOfManyAtOnce) { expectAsOnTheHost(breakingFragments("builtin:icosphere", 200)); }
-
-// Grid coordinates of an object's place.
-gpu::ivec4 onGrid(const brittle::Float3& p, int32_t last) {
-    const auto snap = [](float x) { return static_cast<int32_t>(std::nearbyint(double{x} * 0x1p23)) + (1 << 23); };
-    return {snap(p[0]), snap(p[1]), snap(p[2]), last};
-}
-
-// A blow on the first vertex of each object, which is to have so many sites.
-void hit(Breaking& breaking, uint32_t sites, int32_t contact_radius, int32_t seed) {
-    for (size_t k = 0; k < breaking.records.size(); ++k) {
-        const PreparedMesh& object = breaking.prepared[k];
-        gpu::BreakingRecord& r = breaking.records[k];
-        brittle::Float3 low = scaledPlace(object, 0), high = low;
-        for (uint32_t v = 0; v < object.mesh.positions.size(); ++v)
-            for (size_t c = 0; c < 3; ++c) {
-                low[c] = std::min(low[c], scaledPlace(object, v)[c]);
-                high[c] = std::max(high[c], scaledPlace(object, v)[c]);
-            }
-        const double furthest =
-            std::hypot(double{high[0]} - low[0], double{high[1]} - low[1], double{high[2]} - low[2]) * 0x1p23;
-        r.impact = onGrid(scaledPlace(object, 0), contact_radius);
-        r.low = onGrid(low, static_cast<int32_t>(furthest) + 1);
-        r.high = onGrid(high, seed);
-        r.sites = {static_cast<uint32_t>(k) * sites, sites, 0, 0};
-    }
-}
+TEST(SmallGather, MakesTheMeshThatTheHostWouldMake) { expectAsOnTheHost(scaledFragments("builtin:ring", 7)); }
+TEST(Gather, MakesTheMeshesOfManyAtOnce) { expectAsOnTheHost(scaledFragments("builtin:icosphere", 200)); }
 
 reference::Triangles trianglesOf(const PreparedMesh& object) {
     reference::Triangles triangles;
@@ -264,7 +203,7 @@ reference::Point inUnits(const brittle::Int3& site) {
 }
 
 TEST(SmallGather, PlacesSitesInsideTheirObjects) {
-    Breaking breaking = breakingFragments("builtin:ring", 7);
+    Breaking breaking = scaledFragments("builtin:ring", 7);
     hit(breaking, 20, 1 << 18, 5);
     GatherDevice device(brittle::roomFor(7, breaking.corners / 3));
     const Gathered out = device.gather(breaking.records, breaking.set);
@@ -284,7 +223,7 @@ TEST(SmallGather, PlacesSitesInsideTheirObjects) {
 // A density that is even up to r0 and falls as r^-4 beyond, in a ball of radius R r0 that is hit: of a sphere of radius r about
 // the blow a share of (1 - r / (2 R)) / 2 lies in it.
 TEST(Gather, SitesCrowdAboutTheBlow) {
-    Breaking breaking = breakingFragments("builtin:icosphere", 1);
+    Breaking breaking = scaledFragments("builtin:icosphere", 1);
     constexpr uint32_t kSites = 4000;
     constexpr int32_t kRadius = 1 << 18;
     hit(breaking, kSites, kRadius, 11);
@@ -306,13 +245,13 @@ TEST(Gather, SitesCrowdAboutTheBlow) {
 
 TEST(SmallGather, OfNothingIsNothing) {
     GatherDevice device(brittle::roomFor(4, 100));
-    const Gathered out = device.gather({}, breakingFragments("builtin:ring", 2).set);
+    const Gathered out = device.gather({}, scaledFragments("builtin:ring", 2).set);
     EXPECT_EQ(out.counts[STATUS_FAILED], 0u);
     EXPECT_EQ(out.counts[COUNT_MESH_TRIANGLES], 0u);
 }
 
 TEST(SmallGather, SaysWhatItHadNoRoomFor) {
-    const Breaking breaking = breakingFragments("builtin:ring", 3);
+    const Breaking breaking = scaledFragments("builtin:ring", 3);
     brittle::GatherRoom room = brittle::roomFor(3, breaking.corners / 3);
     room.edges = edgesOf(breaking) - 1;
     const Gathered out = GatherDevice(room).gather(breaking.records, breaking.set);

@@ -53,10 +53,9 @@ GatherRoom roomFor(uint32_t objects, uint32_t triangles) {
     return {objects, triangles, triangles + 4 * objects, triangles + triangles / 2 + triangles / 8 + 6 * objects};
 }
 
-GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room) {
+void takeGatherScratch(engine::ScratchArena& arena, const GatherRoom& room, GatherBuffers& b) {
     const auto words = [&](uint64_t count) { return arena.take(4 * std::max<uint64_t>(count, 4)); };
     const uint64_t corners = room.corners(), triangles = room.triangles;
-    GatherBuffers b;
     b.corners = words(4 * corners);
     b.table = words(tableSize(room.corners()));
     b.slots = words(corners);
@@ -68,6 +67,13 @@ GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room) 
     b.sides = words(2 * corners);
     b.edge_numbers = words(corners + 1);
     b.sums = words(4 * (corners / SCAN_BLOCK + 2));
+}
+
+GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room) {
+    const auto words = [&](uint64_t count) { return arena.take(4 * std::max<uint64_t>(count, 4)); };
+    const uint64_t corners = room.corners();
+    GatherBuffers b;
+    takeGatherScratch(arena, room, b);
     b.mesh_positions = words(3ull * room.vertices);
     b.grid_vertices = words(4ull * room.vertices);
     b.mesh_triangles = words(corners);

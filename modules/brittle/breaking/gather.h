@@ -29,6 +29,8 @@ struct GatherBuffers {
     engine::BufferView mesh_positions, grid_vertices, mesh_triangles, corner_attributes, triangle_edges, mesh_edges;
 };
 GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room);
+// Without the mesh, whose buffers are another's.
+void takeGatherScratch(engine::ScratchArena& arena, const GatherRoom& room, GatherBuffers& b);
 
 // Wants COUNT_BREAKING, COUNT_SOUP_TRIANGLES and COUNT_SOUP_CORNERS published; publishes COUNT_MESH_VERTICES,
 // COUNT_OWN_TRIANGLES, COUNT_EARLIER_TRIANGLES, COUNT_MESH_TRIANGLES, COUNT_MESH_CORNERS and COUNT_MESH_EDGES. `breaking`:

@@ -14,8 +14,6 @@ using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
 
-constexpr float kGridScale = 0x1p23f; // grid steps in half a grid's edge
-
 int32_t tileShift(uint32_t number) { return static_cast<int32_t>(number) << TILE_BITS; }
 Int3 tileCorner(uint32_t number) { return {tileShift(number % TILES_IN_ROW), tileShift(number / TILES_IN_ROW), 0}; }
 
@@ -72,23 +70,6 @@ void addEdges(Batch& batch, const MeshTopology& topology, uint32_t first_vertex)
         batch.topology.edges.push_back({edge[0] + first_vertex, edge[1] + first_vertex});
 }
 
-// The whole of every grid, with bins for the most sites that any object has.
-EventGrid gridOfTiles(uint32_t tiles, uint32_t most_sites) {
-    EventGrid grid;
-    grid.scale = kGridScale;
-    grid.step = 1 / kGridScale;
-    grid.mesh_high = {1 << 24, 1 << 24, 1 << 24};
-    grid.tiles = tiles;
-    const int32_t per_axis = std::clamp(static_cast<int32_t>(std::cbrt(most_sites / 2.0)), 1, 64);
-    for (size_t k = 0; k < 3; ++k) {
-        grid.box_low[k] = -kGridMargin;
-        grid.box_high[k] = (1 << 24) + kGridMargin;
-        grid.bins[k] = per_axis;
-    }
-    grid.bins[3] = ((1 << 24) + 2 * kGridMargin + 1 + per_axis - 1) / per_axis;
-    return grid;
-}
-
 Result<void> addObject(Batch& batch, const BreakingObject& object, std::vector<Bases>& bases) {
     const auto number = static_cast<uint32_t>(batch.objects.size());
     if (object.sites.empty()) return Error{ErrorCode::BadInput, "has no sites; give it at least one"};
@@ -100,10 +81,10 @@ Result<void> addObject(Batch& batch, const BreakingObject& object, std::vector<B
     const auto grid = makeEventGrid(object.mesh, local_sites, count);
     if (!grid) return grid.error();
     batch.objects.push_back(
-        {object.mesh.center, double{kGridScale} / double{grid->scale}, static_cast<uint32_t>(batch.sites.size()), count});
+        {object.mesh.center, double{kTileScale} / double{grid->scale}, static_cast<uint32_t>(batch.sites.size()), count});
     bases.push_back({static_cast<uint32_t>(batch.mesh.positions.size()), static_cast<uint32_t>(batch.topology.edges.size())});
     addEdges(batch, object.topology, bases.back().vertex);
-    addVertices(batch, object.mesh, grid->scale / kGridScale, number);
+    addVertices(batch, object.mesh, grid->scale / kTileScale, number);
     addSites(batch, *grid, local_sites, number);
     batch.capacity.add(estimateCapacities(object.mesh, object.topology, *grid, count));
     return {};

@@ -109,6 +109,22 @@ void setBins(EventGrid& grid, uint32_t site_count, double filled) {
 
 } // namespace
 
+EventGrid gridOfTiles(uint32_t tiles, uint32_t most_sites) {
+    EventGrid grid;
+    grid.scale = kTileScale;
+    grid.step = 1 / kTileScale;
+    grid.mesh_high = {1 << 24, 1 << 24, 1 << 24};
+    grid.tiles = tiles;
+    const int32_t per_axis = std::clamp(static_cast<int32_t>(std::cbrt(most_sites / kSitesPerBin)), 1, 64);
+    for (size_t k = 0; k < 3; ++k) {
+        grid.box_low[k] = -kGridMargin;
+        grid.box_high[k] = (1 << 24) + kGridMargin;
+        grid.bins[k] = per_axis;
+    }
+    grid.bins[3] = ((1 << 24) + 2 * kGridMargin + 1 + per_axis - 1) / per_axis;
+    return grid;
+}
+
 double farthestCoordinate(const Mesh& mesh) {
     float reach = 0;
     for (const Float3& p : mesh.positions)

@@ -43,6 +43,10 @@ constexpr int32_t kGridMargin = 8;
 engine::Result<EventGrid> makeEventGrid(const Mesh& mesh, std::span<const Double3> sites, uint32_t site_count,
                                         bool crowded = false);
 
+// Of objects that break together: the whole of every grid, with bins for the most sites that any of them has.
+constexpr float kTileScale = 0x1p23f; // grid steps in half a grid's edge
+EventGrid gridOfTiles(uint32_t tiles, uint32_t most_sites);
+
 // Of the mesh's vertices, from its center.
 double farthestCoordinate(const Mesh& mesh);
 

@@ -252,7 +252,8 @@ void takeColliders(const Input& in, Taker& take) {
 
 } // namespace
 
-uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const TriangleColumns& columns, EventBuffers& b) {
+uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const TriangleColumns& columns, EventBuffers& b,
+                const TakeMore& beside_sites) {
     const Input in = {c, columns, b};
     Taker take(arena);
     takeKept(in, take);
@@ -261,6 +262,7 @@ uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Triangle
     const engine::ScratchArena::Mark one_stage = arena.mark();
     for (const auto stage : {takeSites, takeCells, takeClipping, takePlaces, takeDepth, takeCaps}) {
         stage(in, take);
+        if (stage == takeSites && beside_sites) beside_sites(arena);
         if (!c.relaxed || stage != takeSites) arena.release(one_stage);
     }
     arena.release(until_caps);

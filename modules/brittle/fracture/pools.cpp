@@ -58,26 +58,23 @@ uint32_t Capacities::pointTable() const { return tableSize(points()); }
 uint32_t Capacities::flapTable() const { return rare.flaps ? tableSize(flap_sides) : 1; }
 uint32_t Capacities::edgeTable() const { return tableSize(uint64_t{3} * pieces / 2); }
 
-Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count) {
-    Extents x = measureExtents(mesh, topology, grid, site_count);
-    auto size = [](double n) { return static_cast<uint32_t>(std::min(n, 2e8)); };
-    double n = site_count, cuts = x.edge_length / x.cell, patches = x.area / (x.cell * x.cell);
-    if (site_count == 1) cuts = patches = 0;
+Capacities usualCapacities(const Amounts& of) {
+    const auto size = [](double n) { return static_cast<uint32_t>(std::min(n, 2e8)); };
+    const double n = of.sites;
     Capacities c;
-    c.sites = site_count;
-    c.vertices = static_cast<uint32_t>(mesh.positions.size());
-    c.edges = static_cast<uint32_t>(topology.edges.size());
-    c.triangles = static_cast<uint32_t>(mesh.triangles.size());
-    c.bins = grid.binCount();
+    c.sites = of.sites;
+    c.vertices = of.vertices;
+    c.edges = of.edges;
+    c.triangles = of.triangles;
     c.neighbors = size(20 * n + 2048);
     c.corners = size(34 * n + 4096);
     c.voronoi_vertices = size(9 * n + 1024);
     c.voronoi_edges = size(14 * n + 2048);
-    c.crossings = size(2.5 * cuts + 0.02 * c.edges + 2048);
-    c.pairs = size(2.5 * c.crossings + 4 * patches + 4096);
+    c.crossings = size(2.5 * of.cuts + 0.02 * c.edges + 2048);
+    c.pairs = size(2.5 * c.crossings + 4 * of.patches + 4096);
     c.polygons = c.pairs;
     c.sides = size(4.5 * c.polygons);
-    c.triples = size(0.6 * c.pairs + 3 * patches + 1024);
+    c.triples = size(0.6 * c.pairs + 3 * of.patches + 1024);
     c.fans = size(2.5 * c.polygons);
     c.intervals = size(c.voronoi_edges + c.triples * 0.6);
     c.segments = size(3.0 * c.intervals + 1.2 * c.crossings + 1.5 * c.triples);
@@ -85,9 +82,6 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.nodes = std::min(2 * c.segments, std::max(1u << 18, c.segments / 2));
     c.caps = size(0.62 * c.segments + 1024);
     c.flap_sides = size(c.caps / 4.0 + 4096);
-    // Where they are to be expected an event that found out would only be made twice.
-    c.rare.exact_cells = site_count > 256;
-    c.rare.flaps = site_count > 256 || c.triangles > 8192;
     c.pieces = c.triangles + c.fans + 2 * c.caps;
     c.components = size(std::min<double>(c.pieces, 6 * n + 0.1 * c.triangles + 16384));
     c.fragments = c.components;
@@ -95,7 +89,21 @@ Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, co
     c.exact_medium = size(std::min(n, 512.0));
     c.exact_large = size(std::min(n, 8.0));
     // A round reaches one cell further in from the triangle's edges.
-    c.clip_rounds = 3 + size(std::min(64.0, x.longest_edge / x.cell));
+    c.clip_rounds = 3 + size(std::min(64.0, of.longest_edge));
+    return c;
+}
+
+Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count) {
+    const Extents x = measureExtents(mesh, topology, grid, site_count);
+    const bool whole = site_count == 1;
+    Capacities c =
+        usualCapacities({site_count, static_cast<uint32_t>(mesh.positions.size()), static_cast<uint32_t>(topology.edges.size()),
+                         static_cast<uint32_t>(mesh.triangles.size()), whole ? 0 : x.edge_length / x.cell,
+                         whole ? 0 : x.area / (x.cell * x.cell), x.longest_edge / x.cell});
+    c.bins = grid.binCount();
+    // Where they are to be expected an event that found out would only be made twice.
+    c.rare.exact_cells = site_count > 256;
+    c.rare.flaps = site_count > 256 || c.triangles > 8192;
     return c;
 }
 

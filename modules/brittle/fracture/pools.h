@@ -12,6 +12,7 @@
 #include "shaders-spirv/shared/fracture.h"
 
 #include <array>
+#include <functional>
 
 namespace brittle {
 
@@ -70,6 +71,12 @@ struct Capacities {
 Capacities withColliders(Capacities capacity, uint32_t directions);
 // Without the pools that only stages after the cells use.
 Capacities forCellsOnly(Capacities capacity);
+// How much there is to be cut: how often edges are, and into how many patches the surface is; both in cells of usual size.
+struct Amounts {
+    uint32_t sites = 0, vertices = 0, edges = 0, triangles = 0;
+    double cuts = 0, patches = 0, longest_edge = 0;
+};
+Capacities usualCapacities(const Amounts& of);
 Capacities estimateCapacities(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid, uint32_t site_count);
 
 // Views into the scratch arena. Groups share memory where one is read for the last time before the other is first written.
@@ -112,6 +119,9 @@ struct EventBuffers {
 };
 
 // Returns the bytes of the largest view.
-uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const TriangleColumns& columns, EventBuffers& b);
+// `beside_sites` takes what is read and written while sites are made ready, and no later.
+using TakeMore = std::function<void(engine::ScratchArena&)>;
+uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const TriangleColumns& columns, EventBuffers& b,
+                const TakeMore& beside_sites = {});
 
 } // namespace brittle

@@ -1,0 +1,87 @@
+#include "modules/brittle/breaking/break.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brittle {
+namespace {
+
+// Of an object of n cells, in squares and lengths of a cell: the surface of a cube has 6 n^(2/3) of them, that of a plate or a
+// rod up to 6 n. Its edges, where triangles are all alike, are 2.3 times the root of triangles times that long, and those of
+// fragments, which have slivers, longer. All objects together have no more than one with all of the triangles and cells.
+Amounts mostOf(const BreakingRoom& room) {
+    const double sites = room.sites;
+    return {room.sites,
+            room.mesh.vertices,
+            room.mesh.edges,
+            room.mesh.triangles,
+            8 * std::sqrt(room.mesh.triangles * sites),
+            6 * sites,
+            std::max(5.0, 2 * std::sqrt(static_cast<double>(room.most_sites)))};
+}
+
+// The mesh is the event's; what is only needed to make it shares memory with the stages that come later.
+void shareMesh(const EventBuffers& b, GatherBuffers& gather) {
+    gather.mesh_positions = b.mesh_positions;
+    gather.grid_vertices = b.grid_vertices;
+    gather.mesh_triangles = b.mesh_triangles;
+    gather.corner_attributes = b.corner_attributes;
+    gather.triangle_edges = b.triangle_edges;
+    gather.mesh_edges = b.mesh_edges;
+}
+
+} // namespace
+
+Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_directions) {
+    Capacities c = usualCapacities(mostOf(room));
+    c.bins = gridOfTiles(room.mesh.objects, room.most_sites).binCount();
+    c.tiled = true;
+    c.exact_medium = std::min(c.exact_medium, 64u);
+    c.exact_large = 0;
+    c.rare = {.exact_cells = true,
+              .medium_cells = true,
+              .large_cells = false,
+              .huge_faces = true,
+              .flaps = true,
+              .films = true,
+              .cavities = true,
+              .partings = true};
+    return withColliders(c, collider_directions);
+}
+
+BreakingEvent planBreaking(const engine::Device& device, uint32_t group_size, const BreakingRoom& room,
+                           uint32_t collider_directions) {
+    BreakingEvent event;
+    event.room = room;
+    event.grid = gridOfTiles(room.mesh.objects, room.most_sites);
+    event.capacity = roomForBreaking(room, collider_directions);
+    event.capacity.emit_window = emitWindow(device.limits());
+    event.turn_budget = turnBudget(device, group_size, Search::Grid, room.sites);
+    return event;
+}
+
+uint64_t layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event) {
+    const auto beside_sites = [&](engine::ScratchArena& rest) { takeGatherScratch(rest, event.room.mesh, event.gather); };
+    const uint64_t largest = layOut(arena, event.capacity, {}, event.b, beside_sites);
+    shareMesh(event.b, event.gather);
+    return largest;
+}
+
+void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, engine::BufferView vertices,
+                    const ScenePools& scene, const ColliderPools& colliders) {
+    const EventBuffers& b = event.b;
+    record.publishSum(COUNT_BINS, NO_INDEX, {{COUNT_BREAKING, event.grid.binCount() / event.grid.tiles}});
+    recordGather(record, event.room.mesh, event.gather, breaking, vertices);
+    recordBreakingSites(record, event.gather, breaking, b.raw_sites, b.placed);
+    recordFracture({.grid = event.grid,
+                    .capacity = event.capacity,
+                    .b = b,
+                    .scene = scene,
+                    .record = record,
+                    .turn_budget = event.turn_budget,
+                    .colliders = colliders,
+                    .caps = event.caps});
+    record.runGroups("check_breaking", 1, engine::NoPush{}, {record.counts(), record.args()});
+}
+
+} // namespace brittle
