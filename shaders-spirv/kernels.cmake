@@ -141,7 +141,9 @@ kernel(narrow_phase/find_fixed_axes.comp)
 kernel(narrow_phase/build_manifolds.comp)
 
 # What breaks, made ready.
-foreach(name IN ITEMS check_breaking find_blows choose_blows hold_blows admit_breaking key_fragments ask_rooms measure_cracks give_rooms pay_cracks gather_corners flag_firsts flag_solid place_breaking write_vertices write_triangles write_edges)
+foreach(name IN ITEMS check_breaking find_blows choose_blows hold_blows admit_breaking key_fragments ask_rooms measure_cracks
+        give_rooms pay_cracks weigh_fragments adopt_hulls adopt_surfaces retire_bodies gather_corners flag_firsts flag_solid place_breaking
+        write_vertices write_triangles write_edges)
     kernel(breaking/${name}.comp)
 endforeach()
 kernel(primitives/weld_points.comp NAME weld_corners DEFINES WORDS=4 STRIDE=4)

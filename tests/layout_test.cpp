@@ -9,6 +9,7 @@
 #include "shaders-spirv/shared/contact.h"
 #include "shaders-spirv/shared/fragment_record.h"
 #include "shaders-spirv/shared/hull.h"
+#include "shaders-spirv/shared/material.h"
 #include "shaders-spirv/shared/narrow_phase.h"
 #include "shaders-spirv/shared/pool.h"
 #include "shaders-spirv/shared/scene.h"
@@ -75,6 +76,16 @@ const std::vector<Row>& rows() {
           MEMBER(PoolHeader, most_in_use), MEMBER(PoolHeader, lacked), MEMBER(PoolHeader, status),
           MEMBER(PoolHeader, returned_twice), MEMBER(PoolHeader, lost), MEMBER(PoolHeader, side)}},
         {"PoolShare", sizeof(gpu::PoolShare), {MEMBER(PoolShare, begin), MEMBER(PoolShare, size)}},
+        {"BreakableBody",
+         sizeof(gpu::BreakableBody),
+         {MEMBER(BreakableBody, surface), MEMBER(BreakableBody, form), MEMBER(BreakableBody, low), MEMBER(BreakableBody, high),
+          MEMBER(BreakableBody, balance), MEMBER(BreakableBody, turn)}},
+        {"BrokenBody",
+         sizeof(gpu::BrokenBody),
+         {MEMBER(BrokenBody, ids), MEMBER(BrokenBody, blow), MEMBER(BrokenBody, place), MEMBER(BrokenBody, other),
+          MEMBER(BrokenBody, along)}},
+        {"BodyShape", sizeof(gpu::BodyShape), {MEMBER(BodyShape, pieces), MEMBER(BodyShape, inverse_inertia)}},
+        {"MaterialCard", sizeof(gpu::MaterialCard), {MEMBER(MaterialCard, elastic), MEMBER(MaterialCard, cracks)}},
         {"HullRecord",
          sizeof(gpu::HullRecord),
          {MEMBER(HullRecord, first), MEMBER(HullRecord, count), MEMBER(HullRecord, center)}},

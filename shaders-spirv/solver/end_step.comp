@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/rigid.glsl"
+#include "lib/sector.glsl"
 #include "lib/held_way.glsl"
 #include "lib/effect.glsl"
 
@@ -19,12 +20,10 @@ READS(6, uint, shares);
 layout(push_constant) uniform Push { vec4 gravity; }; // w: length of the step
 #include "lib/take_up_spin.glsl"
 
-// Whole sectors go over from the offset, which stays in [-SECTOR_EDGE / 2, SECTOR_EDGE / 2).
 void moveTo(uint b, vec3 offset) {
-    const float edge = float(SECTOR_EDGE);
-    vec3 steps = floor(offset / edge + 0.5);
-    bodies[b].sector.xyz += ivec3(steps);
-    bodies[b].offset.xyz = offset - steps * edge;
+    ivec3 sectors = sectorsIn(offset);
+    bodies[b].sector.xyz += sectors;
+    bodies[b].offset.xyz = offsetWithin(offset, sectors);
 }
 
 bool isFinite(vec3 v) { return all(notEqual(floatBitsToUint(v) & uvec3(0x7f800000u), uvec3(0x7f800000u))); }

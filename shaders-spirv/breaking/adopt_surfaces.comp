@@ -1,0 +1,56 @@
+// Surfaces of fragments that become bodies, a workgroup a fragment: from the event's pools to the world's, back in meters, which
+// rounds nothing, and their bounds. A lane takes every GROUP_SIZE-th corner, so that a surface may have four million of them
+// before a lane of Mesa's software device runs out of turns.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "shared/breaking.h"
+#include "shared/fragment_record.h"
+#include "shared/scene.h"
+
+GROUP_KERNEL;
+READS(0, uint, counts);
+READS(1, FragmentRecord, fragments);
+READS(2, ivec4, sites);
+READS(3, BreakingRecord, breaking);
+READS(4, uvec4, rooms);
+READS(5, SceneVertex, event_vertices);
+WRITES(6, SceneVertex, vertices);
+UPDATES(7, BreakableBody, breakable);
+#include "lib/whose_fragment.glsl"
+
+shared vec3 lows[GROUP_SIZE];
+shared vec3 highs[GROUP_SIZE];
+
+void joinBounds(uint lane) {
+    barrier();
+    for (uint width = ROLLED(GROUP_SIZE / 2u); width > 0u; width >>= 1) {
+        if (lane < width) {
+            lows[lane] = min(lows[lane], lows[lane + width]);
+            highs[lane] = max(highs[lane], highs[lane + width]);
+        }
+        barrier();
+    }
+}
+
+void main() {
+    uint f = flatGroup(), lane = gl_LocalInvocationID.x;
+    if (f >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
+    uvec4 room = rooms[f], range = fragments[f].range;
+    if (room[ROOM_BODY] == NO_INDEX) return;
+    float unit = inversePower(breaking[objectOfFragment(f)].center.w);
+    lows[lane] = vec3(1e38);
+    highs[lane] = vec3(-1e38);
+    for (uint k = lane; k < 3u * (range.z + range.w); k += GROUP_SIZE) {
+        SceneVertex v = event_vertices[3u * range.y + k];
+        vec3 p = unit * vec3(v.position[0], v.position[1], v.position[2]);
+        for (uint c = 0u; c < 3u; c++) v.position[c] = p[c];
+        vertices[3u * room[ROOM_TRIANGLES] + k] = v;
+        lows[lane] = min(lows[lane], p);
+        highs[lane] = max(highs[lane], p);
+    }
+    joinBounds(lane);
+    if (lane != 0u) return;
+    breakable[room[ROOM_BODY]].low = vec4(lows[0], 0.0);
+    breakable[room[ROOM_BODY]].high = vec4(highs[0], 0.0);
+}
