@@ -12,7 +12,7 @@ struct Spread {
 };
 
 const uint kSweeps = 6u;
-const float kRounding = 4e-7; // of second moments as they are measured
+const float kRounding = 1e-6; // of second moments, as they are measured: what sums about a corner lose on the way to the center
 
 // A product is nothing where it is no more than rounding makes of two moments this large.
 void turnAboutAxis(uint k, inout Spread s, inout vec4 axes) {
