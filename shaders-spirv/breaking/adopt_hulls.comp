@@ -1,6 +1,6 @@
 // Hulls of fragments that become bodies, about their centers of mass and along their principal axes, a workgroup a fragment.
 // Planes keep the normals that they were cut with, which of a sliver its corners cannot tell, through the middle of their
-// corners' heights. Edges follow from the loops: each where it runs to the higher vertex, in the order of its ends.
+// corners' heights. Edges follow from the loops, in their order: each where it runs to the higher vertex.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -36,7 +36,9 @@ const float kAbove = 1.0 + 1e-6; // a ball holds what it is measured by, however
 
 shared vec3 places[HULL_VERTICES];
 shared uint sides[2 * HULL_EDGES]; // from vertex, to vertex, face: a side of an edge, in whose loop it lies
+shared uint faces_of[HULL_VERTICES * HULL_VERTICES / 4 + 1]; // by ends of a side, a byte each: its face
 shared vec4 ends[LANES];
+shared uint edges_of[LANES];
 uint lane;
 
 // What the lanes have between them: sums of the first three, the largest of the last. The same order for all.
@@ -62,14 +64,29 @@ vec4 takeVertices(ColliderRecord collider, BreakableBody body, float unit, uint 
     return vec4(all_.xyz / float(collider.range.w), all_.w * kAbove);
 }
 
+void forgetSides(uint vertices) {
+    for (uint k = lane; k < vertices * vertices / 4u + 1u; k += LANES) faces_of[k] = 0u;
+}
+
+void noteSide(uint at, uint from, uint to, uint face, uint vertices) {
+    uint entry = from * vertices + to;
+    sides[at] = from << 16 | to << 8 | face;
+    atomicOr(faces_of[entry >> 2], face << (8u * (entry & 3u)));
+}
+
+uint faceOfSide(uint from, uint to, uint vertices) {
+    uint entry = from * vertices + to;
+    return faces_of[entry >> 2] >> (8u * (entry & 3u)) & 0xffu;
+}
+
 // Copies the loop and notes its sides; the middle of its corners' heights.
-float takeLoop(uint face, uvec2 loop, uint first, vec3 normal, uint to) {
+float takeLoop(uint face, uvec2 loop, ColliderRecord collider, vec3 normal, uint to) {
     float low = 1e30, high = -1e30;
     uint before = collider_corners[loop.x + loop.y - 1u];
     for (uint c = 0u; c < loop.y; c++) {
-        uint corner = collider_corners[loop.x + c], at = loop.x - first + c;
+        uint corner = collider_corners[loop.x + c], at = loop.x - collider.info.x + c;
         hull_corners[to + at] = corner;
-        sides[at] = before << 16 | corner << 8 | face;
+        noteSide(at, before, corner, face, collider.range.w);
         float height = dot(normal, places[corner]);
         low = min(low, height);
         high = max(high, height);
@@ -84,7 +101,7 @@ float takeFaces(ColliderRecord collider, vec4 turn, vec3 center, uint to, uint t
     for (uint k = lane; k < collider.range.y; k += LANES) {
         ColliderFaceRecord face = collider_faces[collider.range.x + k];
         vec3 normal = normalize(turned(turn, face.plane.xyz));
-        float height = takeLoop(k, face.loop.xy, collider.info.x, normal, to_corners);
+        float height = takeLoop(k, face.loop.xy, collider, normal, to_corners);
         hull_faces[to + k] = HullFace(vec4(normal, height), uvec4(to_corners + face.loop.x - collider.info.x, face.loop.y, 0u, 0u));
         near = min(near, height - dot(normal, center));
     }
@@ -99,15 +116,23 @@ float radiusAbout(vec3 center, uint vertices) {
 
 bool isEdge(uint side) { return side >> 16 < (side >> 8 & 0xffu); }
 
-void writeEdges(uint corners, uint to) {
-    for (uint k = lane; k < corners; k += LANES) {
-        uint side = sides[k], from = side >> 16, end = side >> 8 & 0xffu, other = end << 8 | from, rank = 0u, right = 0u;
-        for (uint h = 0u; h < corners; h++) {
-            uint that = sides[h];
-            rank += isEdge(that) && that < side ? 1u : 0u;
-            right = that >> 8 == other ? that & 0xffu : right;
-        }
-        if (isEdge(side)) hull_edges[to + rank] = uvec4(from, end, side & 0xffu, right);
+uint edgesBefore(uint own) {
+    edges_of[lane] = own;
+    barrier();
+    uint before = 0u;
+    for (uint k = 0u; k < ROLLED(LANES); k++) before += k < lane ? edges_of[k] : 0u;
+    return before;
+}
+
+// A lane takes sides that follow each other, so that edges stay in order.
+void writeEdges(uint corners, uint vertices, uint to) {
+    uint share = (corners + LANES - 1u) / LANES, begin = lane * share, end = min(begin + share, corners), own = 0u;
+    for (uint k = begin; k < end; k++) own += isEdge(sides[k]) ? 1u : 0u;
+    uint at = to + edgesBefore(own);
+    for (uint k = begin; k < end; k++) {
+        uint side = sides[k], from = side >> 16, until = side >> 8 & 0xffu;
+        if (isEdge(side)) hull_edges[at] = uvec4(from, until, side & 0xffu, faceOfSide(until, from, vertices));
+        at += isEdge(side) ? 1u : 0u;
     }
 }
 
@@ -130,9 +155,10 @@ void main() {
     ColliderRecord collider = colliders[f];
     uint faces = room[ROOM_FACES];
     float unit = inversePower(breaking[objectOfFragment(f)].center.w);
+    forgetSides(collider.range.w);
     vec4 mean = takeVertices(collider, body, unit, VERTICES_A_FACE * faces);
     float near = takeFaces(collider, body.turn, mean.xyz, faces, CORNERS_A_FACE * faces);
     float radius = radiusAbout(mean.xyz, collider.range.w);
-    writeEdges(collider.info.y, EDGES_A_FACE * faces);
+    writeEdges(collider.info.y, collider.range.w, EDGES_A_FACE * faces);
     if (lane == 0u) writeRecords(room, collider, vec4(mean.xyz, radius), mean.w, near);
 }

@@ -39,16 +39,17 @@ void main() {
     uvec4 room = rooms[f], range = fragments[f].range;
     if (room[ROOM_BODY] == NO_INDEX) return;
     float unit = inversePower(breaking[objectOfFragment(f)].center.w);
-    lows[lane] = vec3(1e38);
-    highs[lane] = vec3(-1e38);
+    vec3 low = vec3(1e38), high = vec3(-1e38);
     for (uint k = lane; k < 3u * (range.z + range.w); k += GROUP_SIZE) {
         SceneVertex v = event_vertices[3u * range.y + k];
         vec3 p = unit * vec3(v.position[0], v.position[1], v.position[2]);
         for (uint c = 0u; c < 3u; c++) v.position[c] = p[c];
         vertices[3u * room[ROOM_TRIANGLES] + k] = v;
-        lows[lane] = min(lows[lane], p);
-        highs[lane] = max(highs[lane], p);
+        low = min(low, p);
+        high = max(high, p);
     }
+    lows[lane] = low;
+    highs[lane] = high;
     joinBounds(lane);
     if (lane != 0u) return;
     breakable[room[ROOM_BODY]].low = vec4(lows[0], 0.0);
