@@ -47,12 +47,20 @@ void placeBody(Object& o, uint32_t number, Random& random) {
     const gpu::vec4 center = packed(anywhere(random, whole.diagonal));
     o.center = {center.x, center.y, center.z};
     const double mass = 2 * brittle::builtinMaterials()[0].density * whole.volume;
-    o.state = {{5 - static_cast<int32_t>(number), -300, 20000, BODY_ASLEEP}, packed(anywhere(random, 8), 1 / mass),
-               anyTurn(random), packed(anywhere(random, 30), 3), packed(anywhere(random, 20)), {9, 9, 9, 0}};
+    o.state = {{5 - static_cast<int32_t>(number), -300, 20000, BODY_ASLEEP},
+               packed(anywhere(random, 8), 1 / mass),
+               anyTurn(random),
+               packed(anywhere(random, 30), 3),
+               packed(anywhere(random, 20)),
+               {9, 9, 9, 0}};
     o.shape = {{2 * number, 2, 0, 0}, {{1, 0, 0, 0.7f}, {0, 1, 0, 0.2f}, {0, 0, 1, 4}}};
     const uint32_t triangles = 3 * 5;
-    o.body = {{triangles * number, 6, 9, number % 2}, {narrow(whole.volume), narrow(whole.area), 1, 0}, {}, {},
-              packed(o.center + whole.centroid), anyTurn(random)};
+    o.body = {{triangles * number, 6, 9, number % 2},
+              {narrow(whole.volume), narrow(whole.area), 1, 0},
+              {},
+              {},
+              packed(o.center + whole.centroid),
+              anyTurn(random)};
 }
 
 std::vector<Double3> sitesOf(const ToBreak& object) {
@@ -150,7 +158,8 @@ void addPart(Left& left, const Scene& scene, const Part& part) {
     const auto number = static_cast<uint32_t>(left.fragments.size());
     left.fragments.push_back(recordOf(o, part, number, static_cast<uint32_t>(left.vertices.size() / 3)));
     const auto tile = static_cast<int32_t>(part.object);
-    left.sites.push_back({((tile % TILES_IN_ROW) << TILE_BITS) + 12345, ((tile / TILES_IN_ROW) << TILE_BITS) + 1 + static_cast<int32_t>(number), 77, 0});
+    left.sites.push_back({((tile % TILES_IN_ROW) << TILE_BITS) + 12345,
+                          ((tile / TILES_IN_ROW) << TILE_BITS) + 1 + static_cast<int32_t>(number), 77, 0});
     const Fragment& f = set.fragments[part.fragment];
     for (uint32_t k = 0; k < f.vertex_count; k++) {
         brittle::FragmentVertex v = set.vertices[f.first_vertex + k];
@@ -211,12 +220,9 @@ auto poolsOf(World& w) {
 }
 
 brittle::BrokenParts partsOf(Buffers& b, const Left& left) {
-    return {b.of(left.fragments),
-            b.of(left.sites),
-            b.of(left.vertices),
-            {b.of(left.colliders), b.of(left.faces), b.of(left.collider_vertices), b.of(left.corners)},
-            b.of(left.breaking),
-            b.of(left.broken),
+    return {b.of(left.fragments), b.of(left.sites),
+            b.of(left.vertices),  {b.of(left.colliders), b.of(left.faces), b.of(left.collider_vertices), b.of(left.corners)},
+            b.of(left.breaking),  b.of(left.broken),
             b.of(left.rooms)};
 }
 
@@ -231,6 +237,59 @@ void read(World& world, const std::vector<engine::BufferView>& views) {
     EXPECT_TRUE(done) << done.error().message;
 }
 
+std::vector<uint32_t> countsOf(const Scene& scene, bool failed) {
+    std::vector<uint32_t> counts(STATUS_WORDS);
+    counts[COUNT_FRAGMENTS] = static_cast<uint32_t>(scene.parts.size());
+    counts[COUNT_BREAKING] = static_cast<uint32_t>(scene.objects.size());
+    counts[STATUS_FAILED] = failed ? 1 : 0;
+    return counts;
+}
+
+template <class Record>
+void onDevice(const brittle::Upload& upload, uint32_t group_size, engine::BufferView counts, engine::BufferView args,
+              Record&& record) {
+    engine::KernelLibrary kernels(engine_test::device(), shaders::all(), {{FLAT_SIZE_ID, group_size}});
+    engine::Commands commands(engine_test::device());
+    const auto staging = upload.stage(engine_test::device());
+    EXPECT_TRUE(staging && commands.begin());
+    upload.copy(commands, *staging);
+    brittle::Recorder recorder(commands, kernels, counts, args);
+    recorder.publish(COUNT_FRAGMENTS, 1u << 30);
+    record(recorder);
+    EXPECT_TRUE(recorder.status());
+    const auto done = commands.submitAndWait();
+    EXPECT_TRUE(done) << done.error().message;
+}
+
+std::vector<brittle::FractureResult> broken(std::span<const brittle::BreakingObject> objects) {
+    brittle::FractureOptions options;
+    options.collider = 26;
+    auto results = whole::fracture().shatterTogether(objects, options);
+    EXPECT_TRUE(results) << results.error().message;
+    return std::move(*results);
+}
+
+// In turns.
+void listParts(Scene& scene) {
+    size_t most = 0;
+    for (const Object& o : scene.objects)
+        most = std::max(most, o.result.fragments.fragments.size());
+    for (uint32_t f = 0; f < most; f++)
+        for (uint32_t k = 0; k < scene.objects.size(); k++)
+            if (f < scene.objects[k].result.fragments.fragments.size()) scene.parts.push_back({k, f, {}});
+}
+
+// Bodies that broke, of two pieces each.
+void addWhole(World& w, const Object& o, uint32_t k) {
+    w.bodies[k] = o.state;
+    w.shapes[k] = o.shape;
+    w.breakable[k] = o.body;
+    for (uint32_t p : {2 * k, 2 * k + 1})
+        w.pieces[p].ids = {p, k, 0, 0};
+    w.hulls[2 * k] = {{20 * k, 10 * k, 60 * k, 30 * k}, {4, 4, 12, 6}, {}};
+    w.hulls[2 * k + 1] = {{20 * k + 8, 10 * k + 4, 60 * k + 24, 30 * k + 12}, {8, 6, 24, 12}, {}};
+}
+
 } // namespace
 
 Scene breakTogether(std::vector<ToBreak> objects, uint64_t seed) {
@@ -239,23 +298,16 @@ Scene breakTogether(std::vector<ToBreak> objects, uint64_t seed) {
     std::vector<brittle::BreakingObject> breaking;
     for (const ToBreak& object : objects)
         breaking.push_back({object.model.prepared.mesh, object.model.prepared.topology, sitesOf(object)});
-    brittle::FractureOptions options;
-    options.collider = 26;
-    auto results = whole::fracture().shatterTogether(breaking, options);
-    EXPECT_TRUE(results) << results.error().message;
+    std::vector<brittle::FractureResult> results = broken(breaking);
     const auto batch = brittle::joinObjects(breaking);
-    size_t most = 0;
     for (uint32_t k = 0; k < objects.size(); k++) {
         Object& o = scene.objects.emplace_back();
-        o.result = std::move((*results)[k]);
+        o.result = std::move(results[k]);
         o.model = std::move(objects[k].model);
         o.unit = batch->objects[k].unit;
         placeBody(o, k, random);
-        most = std::max(most, o.result.fragments.fragments.size());
     }
-    for (uint32_t f = 0; f < most; f++)
-        for (uint32_t k = 0; k < scene.objects.size(); k++)
-            if (f < scene.objects[k].result.fragments.fragments.size()) scene.parts.push_back({k, f, {}});
+    listParts(scene);
     giveRooms(scene, random);
     return scene;
 }
@@ -281,15 +333,8 @@ World emptyWorld(const Scene& scene) {
     w.adopted = blank<uint32_t>(scene.objects.size());
     w.returned_count = {0};
     w.returned = blank<std::array<uint32_t, 2>>(4 * kRanges);
-    for (uint32_t k = 0; k < scene.objects.size(); k++) {
-        w.bodies[k] = scene.objects[k].state;
-        w.shapes[k] = scene.objects[k].shape;
-        w.breakable[k] = scene.objects[k].body;
-        for (uint32_t p : {2 * k, 2 * k + 1})
-            w.pieces[p].ids = {p, k, 0, 0};
-        w.hulls[2 * k] = {{20 * k, 10 * k, 60 * k, 30 * k}, {4, 4, 12, 6}, {}};
-        w.hulls[2 * k + 1] = {{20 * k + 8, 10 * k + 4, 60 * k + 24, 30 * k + 12}, {8, 6, 24, 12}, {}};
-    }
+    for (uint32_t k = 0; k < scene.objects.size(); k++)
+        addWhole(w, scene.objects[k], k);
     return w;
 }
 
@@ -297,11 +342,7 @@ World adopt(const Scene& scene, const How& how) {
     World world = emptyWorld(scene);
     world.returned_count[0] = how.ranges_before;
     const Left left = leftOf(scene);
-    std::vector<uint32_t> counts(STATUS_WORDS);
-    const std::vector<uint32_t> steps = {kSteps, 0, 0, 0}, no_args(9 * COUNT_TOTAL);
-    counts[COUNT_FRAGMENTS] = static_cast<uint32_t>(left.fragments.size());
-    counts[COUNT_BREAKING] = static_cast<uint32_t>(scene.objects.size());
-    counts[STATUS_FAILED] = how.failed ? 1 : 0;
+    const std::vector<uint32_t> counts = countsOf(scene, how.failed), steps = {kSteps, 0, 0, 0}, no_args(9 * COUNT_TOTAL);
     const std::vector<gpu::MaterialCard> cards = {brittle::cardOf(brittle::builtinMaterials()[0]),
                                                   brittle::cardOf(brittle::builtinMaterials()[1])};
     Buffers b;
@@ -309,24 +350,12 @@ World adopt(const Scene& scene, const How& how) {
     std::apply([&](auto&... pool) { (v.push_back(b.of(pool)), ...); }, poolsOf(world));
     const brittle::BrokenParts parts = partsOf(b, left);
     const brittle::BreakableWorld to = {v[0], v[1], v[2], {v[3], v[4], v[5], v[6], v[7]}, v[8], v[9], b.of(cards), b.of(steps)};
-    const auto counted = b.of(counts), args = b.of(no_args);
-    engine::KernelLibrary kernels(engine_test::device(), shaders::all(), {{FLAT_SIZE_ID, how.group_size}});
-    engine::Commands commands(engine_test::device());
-    const auto staging = b.upload().stage(engine_test::device());
-    EXPECT_TRUE(staging && commands.begin());
-    b.upload().copy(commands, *staging);
-    commands.timeKernels();
-    brittle::Recorder recorder(commands, kernels, counted, args);
-    recorder.clear({args});
-    recorder.publish(COUNT_FRAGMENTS, 1u << 30);
-    brittle::recordAdoption(recorder, parts, to, {kSeed, kHold}, v[12]);
-    if (how.retire) brittle::recordRetirement(recorder, parts, to, v[12], {v[10], v[11], kRanges});
-    EXPECT_TRUE(recorder.status());
-    const auto done = commands.submitAndWait();
-    EXPECT_TRUE(done) << done.error().message;
+    const engine::BufferView counted = b.of(counts), args = b.of(no_args);
+    onDevice(b.upload(), how.group_size, counted, args, [&](brittle::Recorder& recorder) {
+        brittle::recordAdoption(recorder, parts, to, {kSeed, kHold}, v[12]);
+        if (how.retire) brittle::recordRetirement(recorder, parts, to, v[12], {v[10], v[11], kRanges});
+    });
     read(world, v);
-    const auto tt = commands.timings();
-    for (const engine::Timing& timing : *tt) { world.ms += timing.ms; if (how.ranges_before == 77) printf("  %s %.3f ms\n", timing.name.c_str(), timing.ms); }
     return world;
 }
 
@@ -336,8 +365,8 @@ bool sameBytes(const World& a, const World& b) {
         return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(p[0])) == 0;
     };
     x.adopted = y.adopted = {};
-    return std::apply(
-        [&](auto&... p) { return std::apply([&](auto&... q) { return (same(p, q) && ...); }, poolsOf(y)); }, poolsOf(x));
+    return std::apply([&](auto&... p) { return std::apply([&](auto&... q) { return (same(p, q) && ...); }, poolsOf(y)); },
+                      poolsOf(x));
 }
 
 } // namespace adopting

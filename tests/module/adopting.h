@@ -66,7 +66,6 @@ struct World {
     std::vector<uint32_t> adopted;
     std::vector<uint32_t> returned_count;
     std::vector<std::array<uint32_t, 2>> returned;
-    double ms = 0; // of the device
 };
 
 // Before anything is adopted: bodies that broke, and bytes that nobody writes by chance.
@@ -78,7 +77,7 @@ struct How {
     uint32_t ranges_before = 0;
 };
 World adopt(const Scene& scene, const How& how = {});
-// The bytes of all but `adopted` and times.
+// Of all but `adopted`.
 bool sameBytes(const World& a, const World& b);
 
 } // namespace adopting
