@@ -15,12 +15,10 @@ READS(4, ColliderRecord, colliders);
 WRITES(5, uvec4, sizes);
 WRITES(6, uint, owner_start);
 
-// Of an Euler polyhedron: half as many edges as corners of loops.
-uint facesFor(ColliderRecord hull) {
-    uint vertices = hull.range.w, corners = hull.info.y, edges = corners / 2u;
-    uint by_vertices = (vertices + VERTICES_A_FACE - 1u) / VERTICES_A_FACE, by_edges = (edges + EDGES_A_FACE - 1u) / EDGES_A_FACE;
-    return max(max(hull.range.y, by_vertices), max(by_edges, (corners + CORNERS_A_FACE - 1u) / CORNERS_A_FACE));
-}
+#include "lib/face_room.glsl"
+
+// Of loops, each edge has two sides.
+uint facesFor(ColliderRecord hull) { return faceRoom(uvec4(hull.range.w, hull.range.y, hull.info.y, hull.info.y / 2u)); }
 
 // An object that came out in one piece stays what it is.
 bool isAlone(uint r, uint fragments_) {

@@ -1,4 +1,4 @@
-// Which contacts break what they touch, before they are solved: those of bodies that meet within this step, hard enough for one of
+// Which contacts break what they touch, before they are solved: those of bodies that meet by the end of this step, hard enough for one of
 // them or both. How hard is the energy that the two have along the normal when they meet, which depends on no step and no solver.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -52,7 +52,10 @@ uint sidesThatBreak(uvec4 ids, BlowRecord record) {
     return (a ? BREAKS_A : 0u) | (b ? BREAKS_B : 0u);
 }
 
-// Where they meet, if they do so before the step is over: the middle of the points, as the bodies stand now.
+// The solver brakes bodies that would meet in the substep after the last: a blow is what happens by then.
+const float kAhead = 1.05; // of a substep
+
+// Where they meet, if they do so before the solver has a say: the middle of the points, as the bodies stand now.
 bool meets(uint pair, uvec4 ids, vec3 normal, out BlowRecord record) {
     Pair p = pairNow(pair, ids);
     uint points = min(ids.z, MANIFOLD_POINTS);
@@ -67,8 +70,8 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out BlowRecord record) {
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
     float now = dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), then = speedOfMeeting(now, separation, p, normal, gravity);
     float apart = max(separation, 0.0), mean = -0.5 * (now + then);
-    if (yield_ <= 0.0 || !(then < 0.0) || apart > mean * duration) return false;
-    record.blow = vec4(1.0 / yield_, -then, 0.5 * then * then / yield_, apart / (mean * duration));
+    if (yield_ <= 0.0 || !(then < 0.0) || apart > mean * (duration + kAhead * gravity.w)) return false;
+    record.blow = vec4(1.0 / yield_, -then, 0.5 * then * then / yield_, min(apart / (mean * duration), 1.0));
     return true;
 }
 

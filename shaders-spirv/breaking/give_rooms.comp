@@ -1,7 +1,10 @@
-// Where each fragment goes, by its own number again; nowhere where it asked for nothing.
+// Where each fragment goes, by its own number again; nowhere where it asked for nothing. Slots beyond all that held anything so
+// far are of the world from now on.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "shared/breaking.h"
+#include "shared/solver.h"
 
 FLAT_KERNEL;
 READS(0, uint, counts);
@@ -9,8 +12,14 @@ READS(1, uint, order);
 READS(2, uvec4, sizes);
 READS(3, uvec4, begins);
 WRITES(4, uvec4, rooms);
+UPDATES(5, uint, steps);
 
 void main() {
     uint r = flatIndex();
-    if (r < counts[COUNT_FRAGMENTS]) rooms[order[r]] = sizes[r].x == 0u ? uvec4(NO_INDEX) : begins[r];
+    if (r >= counts[COUNT_FRAGMENTS]) return;
+    uvec4 room = sizes[r].x == 0u ? uvec4(NO_INDEX) : begins[r];
+    rooms[order[r]] = room;
+    if (room.x == NO_INDEX) return;
+    atomicMax(steps[STEPS_BODIES], room[ROOM_BODY] + 1u);
+    atomicMax(steps[STEPS_PIECES], room[ROOM_PIECE] + 1u);
 }

@@ -1,13 +1,14 @@
-// Bodies that their fragments have taken the place of are absent, and what they took from the pools goes to the lists of what has
-// been given back, in the order of objects. One workgroup; a lane takes every GROUP_SIZE-th object.
+// Bodies that their fragments have taken the place of are absent, a lane an object, and what they had of the pools is returned;
+// nothing for those that stay whole.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
 #include "shared/hull.h"
+#include "shared/pool.h"
 
-GROUP_KERNEL;
+FLAT_KERNEL;
 READS(0, uint, counts);
 READS(1, BrokenBody, broken);
 READS(2, uint, adopted);
@@ -16,51 +17,37 @@ READS(4, HullRecord, hulls);
 UPDATES(5, BodyState, bodies);
 UPDATES(6, BreakableBody, breakable);
 UPDATES(7, PieceRecord, pieces);
-UPDATES(8, uint, returned_count); // ranges in each list
-WRITES(9, uvec2, returned);       // begin, size; a list a pool, in the order ROOM_*, one after the other
-layout(push_constant) uniform Push { uint room; }; // of a list, in ranges
-
-void giveBack(uint at, uint pool, uint begin, uint size) {
-    if (at < room) returned[pool * room + at] = uvec2(begin, size);
-}
+WRITES(8, PoolShare, returned);
+#include "lib/face_room.glsl"
 
 // Hulls of a body follow each other.
-void giveBackAll(uint at, uint body) {
+PoolShare shareOf(uint body) {
     uvec2 range = shapes[body].pieces.xy;
     uvec4 surface = breakable[body].surface;
     HullRecord first = hulls[pieces[range.x].ids.x], last = hulls[pieces[range.x + range.y - 1u].ids.x];
-    giveBack(at, ROOM_BODY, body, 1u);
-    giveBack(at, ROOM_PIECE, range.x, range.y);
-    giveBack(at, ROOM_FACES, first.first.y, last.first.y + last.count.y - first.first.y);
-    giveBack(at, ROOM_TRIANGLES, surface.x / 3u, (surface.y + surface.z) / 3u);
+    PoolShare share;
+    share.begin = uvec4(body, range.x, first.first.y, surface.x / 3u);
+    share.size = uvec4(1u, range.y, last.first.y + faceRoom(last.count) - first.first.y, (surface.y + surface.z) / 3u);
+    return share;
 }
 
 void retire(uint body) {
     uvec2 range = shapes[body].pieces.xy;
     for (uint p = 0u; p < range.y; p++) pieces[range.x + p].ids.y = NO_INDEX;
-    breakable[body].surface.w = NO_INDEX;
+    breakable[body].surface = uvec4(0u, 0u, 0u, NO_INDEX);
+    bodies[body].sector.w = BODY_ABSENT;
     bodies[body].offset.w = 0.0;
     bodies[body].velocity = vec4(0.0);
     bodies[body].spin = vec4(0.0);
     bodies[body].momentum = vec4(0.0);
 }
 
-uint adoptedBefore(uint object) {
-    uint before = 0u;
-    for (uint k = 0u; k < object; k++) before += adopted[k] != 0u ? 1u : 0u;
-    return before;
-}
-
 void main() {
-    uint lane = gl_LocalInvocationID.x, begin = returned_count[0];
-    barrier();
-    if (counts[STATUS_FAILED] != 0u) return;
-    uint objects = counts[COUNT_BREAKING];
-    for (uint k = lane; k < objects; k += GROUP_SIZE) {
-        if (adopted[k] != 0u) {
-            giveBackAll(begin + adoptedBefore(k), broken[k].ids.x);
-            retire(broken[k].ids.x);
-        }
-    }
-    if (lane == 0u) returned_count[0] = begin + adoptedBefore(objects);
+    uint k = flatIndex();
+    if (k >= counts[COUNT_BREAKING]) return;
+    bool leaves = adopted[k] != 0u && counts[STATUS_FAILED] == 0u;
+    returned[k] = PoolShare(uvec4(0u), uvec4(0u));
+    if (!leaves) return;
+    returned[k] = shareOf(broken[k].ids.x);
+    retire(broken[k].ids.x);
 }

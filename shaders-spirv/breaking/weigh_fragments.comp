@@ -31,6 +31,7 @@ layout(push_constant) uniform Push {
     uint seed_low;
     uint seed_high;
     float hold; // s, for how long no blow breaks it
+    float duration; // of a step
 };
 #include "lib/whose_fragment.glsl"
 
@@ -94,7 +95,7 @@ void setBreakable(uint slot, uint f, Weighed w, uint parent, float unit) {
     FragmentRecord r = fragments[f];
     uint material = breakable[parent].surface.w, earlier = r.fate.w;
     breakable[slot].surface = uvec4(3u * rooms[f][ROOM_TRIANGLES], 3u * (r.range.z - earlier), 3u * (earlier + r.range.w), material);
-    breakable[slot].form = vec4(w.volume, r.measure.y * unit * unit, strengthFor(f, parent, w, material), hold);
+    breakable[slot].form = vec4(w.volume, r.measure.y * unit * unit, strengthFor(f, parent, w, material), float(steps[STEPS_MADE]) * duration + hold);
     breakable[slot].balance = vec4(w.balance, 0.0);
     breakable[slot].turn = turnBack(w.axes);
 }

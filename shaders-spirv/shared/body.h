@@ -9,7 +9,9 @@ GPU_NAMESPACE_BEGIN
 
 #define SECTOR_EDGE 16 /* m */
 
-#define BODY_ASLEEP 1 /* among the flags: it was not solved in the last step */
+// Flags.
+#define BODY_ASLEEP 1 /* it was not solved in the last step */
+#define BODY_ABSENT 2 /* nothing is in this slot */
 
 struct BodyState {
     ivec4 sector;  // w: BODY_* flags

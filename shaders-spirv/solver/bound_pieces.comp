@@ -34,6 +34,11 @@ void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_BOXES]) return;
     uvec4 ids = pieces[p].ids;
+    if (ids.y == NO_INDEX) {
+        box_low[p] = vec4(3e38);
+        box_high[p] = vec4(-3e38);
+        return;
+    }
     BodyState body = bodies[ids.y];
     bool moves = body.offset.w != 0.0;
     HullRecord hull = hulls[ids.x];

@@ -9,13 +9,12 @@ layout(local_size_x = 1) in;
 UPDATES(0, uint, counts);
 WRITES(1, uint, args);
 UPDATES(2, uint, steps);
-layout(push_constant) uniform Push { uint pieces, bodies; };
 #include "lib/publish.glsl"
 
 void main() {
     bool idle = steps[STEPS_ASLEEP] >= IDLE_STEPS;
     if (idle && counts[STATUS_FAILED] == 0u) steps[STEPS_MADE]++;
-    publishCount(COUNT_BOXES, idle ? 0u : pieces, NO_INDEX);
-    publishCount(COUNT_BODIES, idle ? 0u : bodies, NO_INDEX);
+    publishCount(COUNT_BOXES, idle ? 0u : steps[STEPS_PIECES], NO_INDEX);
+    publishCount(COUNT_BODIES, idle ? 0u : steps[STEPS_BODIES], NO_INDEX);
     publishCount(COUNT_ONCE, idle ? 0u : 1u, NO_INDEX);
 }

@@ -216,7 +216,7 @@ private:
 
 auto poolsOf(World& w) {
     return std::tie(w.bodies, w.shapes, w.pieces, w.hulls, w.hull_vertices, w.hull_faces, w.hull_corners, w.hull_edges,
-                    w.breakable, w.vertices, w.returned_count, w.returned, w.adopted);
+                    w.breakable, w.vertices, w.returned, w.adopted);
 }
 
 brittle::BrokenParts partsOf(Buffers& b, const Left& left) {
@@ -255,6 +255,7 @@ void onDevice(const brittle::Upload& upload, uint32_t group_size, engine::Buffer
     upload.copy(commands, *staging);
     brittle::Recorder recorder(commands, kernels, counts, args);
     recorder.publish(COUNT_FRAGMENTS, 1u << 30);
+    recorder.publish(COUNT_BREAKING, 1u << 30);
     record(recorder);
     EXPECT_TRUE(recorder.status());
     const auto done = commands.submitAndWait();
@@ -331,8 +332,7 @@ World emptyWorld(const Scene& scene) {
     w.hull_corners = blank<uint32_t>(CORNERS_A_FACE * n.z);
     w.vertices = blank<brittle::FragmentVertex>(3 * n.w);
     w.adopted = blank<uint32_t>(scene.objects.size());
-    w.returned_count = {0};
-    w.returned = blank<std::array<uint32_t, 2>>(4 * kRanges);
+    w.returned = blank<gpu::PoolShare>(kMostReturned);
     for (uint32_t k = 0; k < scene.objects.size(); k++)
         addWhole(w, scene.objects[k], k);
     return w;
@@ -340,7 +340,6 @@ World emptyWorld(const Scene& scene) {
 
 World adopt(const Scene& scene, const How& how) {
     World world = emptyWorld(scene);
-    world.returned_count[0] = how.ranges_before;
     const Left left = leftOf(scene);
     const std::vector<uint32_t> counts = countsOf(scene, how.failed), steps = {kSteps, 0, 0, 0}, no_args(9 * COUNT_TOTAL);
     const std::vector<gpu::MaterialCard> cards = {brittle::cardOf(brittle::builtinMaterials()[0]),
@@ -352,8 +351,8 @@ World adopt(const Scene& scene, const How& how) {
     const brittle::BreakableWorld to = {v[0], v[1], v[2], {v[3], v[4], v[5], v[6], v[7]}, v[8], v[9], b.of(cards), b.of(steps)};
     const engine::BufferView counted = b.of(counts), args = b.of(no_args);
     onDevice(b.upload(), how.group_size, counted, args, [&](brittle::Recorder& recorder) {
-        brittle::recordAdoption(recorder, parts, to, {kSeed, kHold}, v[12]);
-        if (how.retire) brittle::recordRetirement(recorder, parts, to, v[12], {v[10], v[11], kRanges});
+        brittle::recordAdoption(recorder, parts, to, {kSeed, kHold}, v[11]);
+        if (how.retire) brittle::recordRetirement(recorder, parts, to, v[11], v[10]);
     });
     read(world, v);
     return world;
@@ -364,7 +363,8 @@ bool sameBytes(const World& a, const World& b) {
     const auto same = [](const auto& p, const auto& q) {
         return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(p[0])) == 0;
     };
-    x.adopted = y.adopted = {};
+    x.adopted = y.adopted = {}; // these two are not the world's
+    x.returned = y.returned = {};
     return std::apply([&](auto&... p) { return std::apply([&](auto&... q) { return (same(p, q) && ...); }, poolsOf(y)); },
                       poolsOf(x));
 }

@@ -6,6 +6,7 @@
 #include "shaders-spirv/shared/body.h"
 #include "shaders-spirv/shared/breaking.h"
 #include "shaders-spirv/shared/hull.h"
+#include "shaders-spirv/shared/pool.h"
 #include "tests/module/whole_fracture.h"
 
 #include <random>
@@ -14,8 +15,8 @@ namespace adopting {
 
 constexpr uint64_t kSeed = 0x123456789abcdef0;
 constexpr float kHold = 0.25f;
-constexpr uint32_t kSteps = 41; // that the world has made
-constexpr uint32_t kRanges = 8; // room for what is given back
+constexpr uint32_t kSteps = 41;       // that the world has made
+constexpr uint32_t kMostReturned = 8; // objects
 
 // A body that broke: its mesh and fragments about `center` of the frame of its vertices.
 struct Object {
@@ -64,8 +65,7 @@ struct World {
     std::vector<gpu::BreakableBody> breakable;
     std::vector<brittle::FragmentVertex> vertices;
     std::vector<uint32_t> adopted;
-    std::vector<uint32_t> returned_count;
-    std::vector<std::array<uint32_t, 2>> returned;
+    std::vector<gpu::PoolShare> returned; // by object
 };
 
 // Before anything is adopted: bodies that broke, and bytes that nobody writes by chance.
@@ -74,7 +74,6 @@ struct How {
     uint32_t group_size = 64;
     bool retire = false;
     bool failed = false; // the event
-    uint32_t ranges_before = 0;
 };
 World adopt(const Scene& scene, const How& how = {});
 // Of all but `adopted`.

@@ -6,8 +6,9 @@ void recordAdoption(Recorder& record, const BrokenParts& parts, const BreakableW
                     engine::BufferView adopted) {
     struct Push {
         uint32_t seed_low, seed_high;
-        float hold;
-    } push = {static_cast<uint32_t>(settings.seed), static_cast<uint32_t>(settings.seed >> 32), settings.hold};
+        float hold, duration;
+    } push = {static_cast<uint32_t>(settings.seed), static_cast<uint32_t>(settings.seed >> 32), settings.hold,
+              settings.duration};
     const engine::BufferView groups = record.groupsOf(COUNT_FRAGMENTS);
     record.commands().beginLabel("adopt");
     record.clear({adopted});
@@ -27,11 +28,11 @@ void recordAdoption(Recorder& record, const BrokenParts& parts, const BreakableW
 }
 
 void recordRetirement(Recorder& record, const BrokenParts& parts, const BreakableWorld& world, engine::BufferView adopted,
-                      const ReturnedRanges& returned) {
+                      engine::BufferView returned) {
     record.commands().beginLabel("retire");
-    record.runGroups("retire_bodies", 1, returned.room,
-                     {record.counts(), parts.broken, adopted, world.shapes, world.hulls.records, world.bodies, world.breakable,
-                      world.pieces, returned.count, returned.lists});
+    record.run("retire_bodies", Length::counted(COUNT_BREAKING), engine::NoPush{},
+               {record.counts(), parts.broken, adopted, world.shapes, world.hulls.records, world.bodies, world.breakable,
+                world.pieces, returned});
     record.commands().endLabel();
 }
 

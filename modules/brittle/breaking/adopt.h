@@ -32,14 +32,8 @@ struct BreakableWorld {
 // How strong fragments are is drawn by this seed; for so long no blow breaks them.
 struct FragmentSettings {
     uint64_t seed = 0;
-    float hold = 0; // s
-};
-
-// Ranges that bodies have given back: begin and size, as many lists as there are ROOM_*, each with room for so many, one after
-// the other; and one word that says how many ranges each holds, more than `room` where some did not fit.
-struct ReturnedRanges {
-    engine::BufferView count, lists;
-    uint32_t room = 0;
+    float hold = 0;     // s
+    float duration = 0; // of a step, s
 };
 
 // Writes all of a body to the slots that its room names, and nothing else. `adopted`: a word an object, not 0 for those whose
@@ -47,8 +41,9 @@ struct ReturnedRanges {
 void recordAdoption(Recorder& record, const BrokenParts& parts, const BreakableWorld& world, const FragmentSettings& settings,
                     engine::BufferView adopted);
 
-// After that, for the same objects: their bodies have no mass, no motion and no pieces, and cannot break.
+// After that, for the same objects: their bodies are absent, with no mass, no motion and no pieces, and cannot break.
+// `returned`: a PoolShare an object, what it had of the pools, nothing for those that stay whole.
 void recordRetirement(Recorder& record, const BrokenParts& parts, const BreakableWorld& world, engine::BufferView adopted,
-                      const ReturnedRanges& returned);
+                      engine::BufferView returned);
 
 } // namespace brittle

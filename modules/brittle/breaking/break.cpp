@@ -38,6 +38,8 @@ Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_direction
     c.tiled = true;
     c.exact_medium = std::min(c.exact_medium, 64u);
     c.exact_large = 0;
+    // What does not fit stays whole, so there is no need for as many as a broken mesh of any kind may have.
+    c.components = c.fragments = 4 * room.sites + 1024;
     c.rare = {.exact_cells = true,
               .medium_cells = true,
               .large_cells = false,

@@ -1,5 +1,7 @@
 #include "modules/brittle/dynamics/body_order.h"
 
+#include "modules/brittle/breaking/breakable.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -20,6 +22,8 @@ WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
     WorldContents sorted;
     sorted.hulls = contents.hulls;
     sorted.siblings = contents.siblings;
+    sorted.cards = contents.cards;
+    sorted.surface_vertices = contents.surface_vertices;
     std::vector<uint32_t> piece_now(contents.pieces.size());
     for (uint32_t k = 0; k < order.piece_at.size(); k++)
         piece_now[order.piece_at[k]] = k;
@@ -38,6 +42,8 @@ WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
         sorted.shapes.push_back(shape);
         sorted.bodies.push_back(contents.bodies[body]);
         sorted.ids.push_back(contents.ids[body]);
+        if (!contents.breakable.empty())
+            sorted.breakable.push_back(body < contents.breakable.size() ? contents.breakable[body] : unbreakable());
     }
     return sorted;
 }

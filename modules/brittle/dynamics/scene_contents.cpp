@@ -1,5 +1,6 @@
 #include "modules/brittle/dynamics/scene_contents.h"
 
+#include "modules/brittle/breaking/breakable.h"
 #include "modules/brittle/dynamics/grown_piece.h"
 #include "modules/brittle/dynamics/piece_shape.h"
 #include "modules/brittle/dynamics/pose.h"
@@ -21,6 +22,7 @@ using engine::Result;
 
 constexpr double kPlaneEdge = 1000, kPlaneDepth = 10; // m, of the hull that is always below what a plane is held against
 constexpr double kLeastShown = 10;                    // m, of a plane's edge
+constexpr uint64_t kStrengthSeed = 1;
 
 Result<PieceShape> cellPiece(const FragmentSet& set, uint32_t k, double inflate) {
     const ColliderPiece& piece = set.colliders.pieces[k];
@@ -189,6 +191,8 @@ public:
                   WorldSurfaces* surfaces)
         : scene_(scene), folder_(folder), fracture_(fracture) {
         if (surfaces != nullptr) surfaces_.emplace(*surfaces);
+        const auto effects = resolve(scene.effects);
+        breaks_ = effects && effects->set.has(Effect::ImpactFracture);
     }
     // `broken`: the cells of the first body, where it has been broken already.
     Result<WorldContents> all(const FragmentSet* broken);
@@ -211,12 +215,22 @@ private:
         if (surfaces_) surfaces_->add(body, surface(), is_plane);
         return {};
     }
+    // The same of a body that may break, of so many cubic meters.
+    template <class MakeSurface>
+    Result<void> add(const BodyDescription& d, const BodyDefinition& body, double volume, MakeSurface&& surface) {
+        if (auto added = add(body, surface); !added || !breaks_ || d.material.empty()) return added;
+        const auto material = materialOf(d.material, scene_.materials);
+        if (!material) return material.error();
+        const auto index = static_cast<uint32_t>(contents_.bodies.size() - 1);
+        return makeBreakable(contents_, {index, surface(), body, *material, volume, kStrengthSeed});
+    }
 
     const SceneDescription& scene_;
     const std::filesystem::path& folder_;
     Fracture* fracture_;
     WorldContents contents_;
     std::optional<SurfaceCollector> surfaces_;
+    bool breaks_ = false;
 };
 
 Result<WorldContents> ContentsMaker::all(const FragmentSet* broken) {
@@ -254,7 +268,7 @@ Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string
     body.place = d.place + turnedBy(d.turn, measures.center);
     body.mass = weigh(d, measures.volume);
     body.inertia = scaled(measures.inertia, body.mass / measures.volume);
-    return add(body, [&] { return surfaceOf(hull->hull, measures.center); });
+    return add(d, body, measures.volume, [&] { return surfaceOf(hull->hull, measures.center); });
 }
 
 // Each cell a body: at rest against each other, they move as the whole did.
@@ -273,7 +287,8 @@ Result<void> ContentsMaker::addBroken(const BodyDescription& d, const std::strin
         body.velocity = d.velocity + cross(d.spin, way);
         body.mass = density * f.volume;
         body.inertia = scaled(f.inertia, density);
-        if (auto added = add(body, [&] { return surfaceOf(set, f, f.centroid); }); !added) return added;
+        const auto surface = [&] { return surfaceOf(set, f, f.centroid); };
+        if (auto added = add(d, body, f.volume, surface); !added) return added;
     }
     if (d.shape.cells.inflate == 0) addSiblings(d, set, center);
     return {};
@@ -295,7 +310,7 @@ Result<void> ContentsMaker::addCompound(const BodyDescription& d, const std::str
     const double volume = volumeOf(set);
     BodyDefinition body = compoundOf(bodyOf(d, name), set, weigh(d, volume) / volume, center);
     body.place = d.place + turnedBy(d.turn, set.center + center);
-    return add(body, [&] { return surfaceOf(cells.model.mesh, center); });
+    return add(d, body, volume, [&] { return surfaceOf(cells.model.mesh, center); });
 }
 
 Result<void> ContentsMaker::addCollider(const ColliderDescription& d, const std::string& name) {
@@ -361,6 +376,8 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.ccd = has(Effect::Ccd);
     s.sleeping = has(Effect::Sleeping);
     s.drag = has(Effect::Drag);
+    s.impact_fracture = has(Effect::ImpactFracture);
+    s.refracture = has(Effect::Refracture);
     s.air_density = scene.air_density;
     s.drag_coefficient = scene.drag_coefficient;
     s.contact_hertz = scene.step.contact_hertz;
@@ -375,8 +392,8 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
 }
 
 std::vector<std::string> effectsWithout(const SceneDescription& scene) {
-    constexpr EffectSet kThere = {Effect::Gravity, Effect::Contacts, Effect::Friction, Effect::Restitution,
-                                  Effect::Ccd,     Effect::Sleeping, Effect::Drag};
+    constexpr EffectSet kThere = {Effect::Gravity,  Effect::Contacts, Effect::Friction,       Effect::Restitution, Effect::Ccd,
+                                  Effect::Sleeping, Effect::Drag,     Effect::ImpactFracture, Effect::Refracture};
     std::vector<std::string> without;
     for (const std::string& name : scene.effects)
         if (const auto effect = effectOf(name); effect && !kThere.has(*effect)) without.push_back(name);

@@ -67,8 +67,7 @@ void recordPieceBoxes(const Step& s) {
 
 void recordBoxes(const Step& s) {
     s.record.commands().beginLabel("boxes");
-    const uint32_t sizes[] = {s.b.sizes.pieces, s.b.sizes.bodies};
-    s.record.runGroups("open_step", 1, sizes, {s.record.counts(), s.record.args(), s.b.steps});
+    s.record.runGroups("open_step", 1, engine::NoPush{}, {s.record.counts(), s.record.args(), s.b.steps});
     s.record.run("begin_step", Length::counted(COUNT_BODIES), fallingOf(s),
                  {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares});
     if (s.has(Effect::Contacts)) recordPieceBoxes(s);

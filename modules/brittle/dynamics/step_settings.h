@@ -33,6 +33,10 @@ struct StepSettings {
     bool drag = false;          // air slows bodies as it would the balls around them (lib/air_drag.glsl)
     double air_density = 1.225; // kg/m3
     double drag_coefficient = 0.47;
+    bool impact_fracture = false; // bodies break where they are hit hard enough (breaking/breakable.h says which can)
+    bool refracture = false;      // so do their fragments
+    uint64_t breaking_seed = 1;
+    double blow_time = 0.05; // s: for so long a blow does not break the fragments that it has made
 };
 
 // BadInput for what is out of range.

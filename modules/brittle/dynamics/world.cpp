@@ -1,5 +1,6 @@
 #include "modules/brittle/dynamics/world.h"
 
+#include "modules/brittle/breaking/breaking.h"
 #include "modules/brittle/dynamics/body_order.h"
 #include "modules/brittle/dynamics/step.h"
 #include "modules/brittle/fracture/fetch.h"
@@ -32,7 +33,16 @@ public:
                 const StepSettings& settings, const WorldBudget& budget)
         : device_(device), kernels_(device, shaders::all(), kernelConstants(settings, budget.group_size)),
           order_(std::move(order)), contents_(std::move(contents)), b_(std::move(buffers)), settings_(settings),
-          budget_(budget) {}
+          budget_(budget), slots_(static_cast<uint32_t>(order_.body_at.size())) {}
+
+    // Bodies that can, break from now on; to be called before anything is recorded.
+    Result<void> makeBreakable(const RoomToBreak& room) {
+        auto breaking = Breaking::create(device_, contents_, room, b_.sizes.pairs, budget_.group_size);
+        if (!breaking) return breaking.error();
+        breaking_ = std::move(*breaking);
+        to_break_ = room;
+        return {};
+    }
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
@@ -69,8 +79,8 @@ public:
     Result<std::vector<gpu::BodyState>> bodies() override {
         auto states = readStates();
         if (!states) return states;
-        std::vector<gpu::BodyState> as_added(states->size());
-        for (size_t k = 0; k < states->size(); k++)
+        std::vector<gpu::BodyState> as_added = *states;
+        for (size_t k = 0; k < order_.body_at.size(); k++)
             as_added[order_.body_at[k]] = (*states)[k];
         return as_added;
     }
@@ -80,8 +90,7 @@ public:
         std::vector<Fetch> wanted = {{b_.counts, words.data(), 4 * words.size()}, {b_.args, args.data(), 4 * args.size()}};
         if (has(Effect::Contacts)) wanted.push_back({b_.step.color_start, colors.data(), 4 * colors.size()});
         if (auto read = fetch(device_, wanted); !read) return read.error();
-        WorldCounts c = {b_.sizes.bodies, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS],
-                         words[COUNT_FRESH_PAIRS]};
+        WorldCounts c = {slots_, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS], words[COUNT_FRESH_PAIRS]};
         for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_SOLVED_APART; k++)
             c.groups += args[9 * k] * args[9 * k + 1];
         c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
@@ -98,7 +107,7 @@ public:
         const Fetch wanted[] = {{b_.memory[(made_ + 1) & 1].pairs.sub(0, 8 * pairs.size()), pairs.data(), 8 * pairs.size()}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         for (auto& pair : pairs) {
-            const uint32_t a = order_.piece_at[pair[0]], b = order_.piece_at[pair[1]];
+            const uint32_t a = pieceAsAdded(pair[0]), b = pieceAsAdded(pair[1]);
             pair = {std::min(a, b), std::max(a, b)};
         }
         std::ranges::sort(pairs);
@@ -172,9 +181,11 @@ private:
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
         recordIslands(step);
+        if (breaking_) breaking_->recordBlows(step);
         recordColors(step);
         recordSolve(step);
         recordEnd(step);
+        if (breaking_) return breaking_->recordEvent(step);
         return {};
     }
 
@@ -208,9 +219,13 @@ private:
         return commands.wait();
     }
 
+    // Fragments keep their slots.
+    uint32_t bodyAsAdded(uint32_t slot) const { return slot < order_.body_at.size() ? order_.body_at[slot] : slot; }
+    uint32_t pieceAsAdded(uint32_t slot) const { return slot < order_.piece_at.size() ? order_.piece_at[slot] : slot; }
+
     // In the order that the device has them in.
     Result<std::vector<gpu::BodyState>> readStates() {
-        std::vector<gpu::BodyState> states(b_.sizes.bodies);
+        std::vector<gpu::BodyState> states(slots_);
         const Fetch wanted[] = {{b_.bodies, states.data(), states.size() * sizeof(gpu::BodyState)}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
         return states;
@@ -225,6 +240,8 @@ private:
         auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, b_.sizes.effects);
         if (!larger) return larger.error();
         std::swap(b_, *larger);
+        if (breaking_)
+            if (auto made = makeBreakable(to_break_); !made) return made;
         Upload upload;
         const std::vector<BufferView> now = stateViews();
         for (size_t k = 0, at = 0; k < was.size(); at += was[k].size, k++)
@@ -236,10 +253,11 @@ private:
     // How many steps the device has made; the counts of the last.
     Result<std::vector<uint32_t>> takeStock() {
         std::vector<uint32_t> words(STATUS_WORDS);
-        uint32_t steps = 0;
-        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {b_.steps.sub(0, 4), &steps, 4}};
+        std::array<uint32_t, STEPS_WORDS> steps = {};
+        const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {b_.steps, steps.data(), sizeof steps}};
         if (auto read = fetch(device_, wanted); !read) return read.error();
-        made_ = steps;
+        made_ = steps[STEPS_MADE];
+        slots_ = steps[STEPS_BODIES];
         return words;
     }
 
@@ -250,7 +268,7 @@ private:
         commands.fill(b_.counts.sub(4 * STATUS_STOPPED_BODY, 4), 0);
         if (auto done = commands.submitAndWait(); !done) return done;
         return Error{ErrorCode::BadInput, "by step " + std::to_string(made_) + " the motion of body " +
-                                              std::to_string(order_.body_at[body]) +
+                                              std::to_string(bodyAsAdded(body)) +
                                               " is beyond what floats hold; it was stopped where it was. Smaller steps help"};
     }
 
@@ -278,6 +296,11 @@ private:
         for (const PairMemory& memory : b_.memory)
             for (const BufferView& view : {memory.count, memory.pairs, memory.contacts})
                 views.push_back(view);
+        if (!breaking_) return views;
+        for (const BufferView& view :
+             {b_.shapes, b_.pieces, b_.hull_records, b_.hull_vertices, b_.hull_faces, b_.hull_corners, b_.hull_edges})
+            views.push_back(view);
+        std::ranges::copy(breaking_->stateViews(), std::back_inserter(views));
         return views;
     }
     bool has(Effect effect) const { return b_.sizes.effects.has(effect); }
@@ -299,6 +322,9 @@ private:
     bool submitted_[2] = {false, false};
     bool times_passes_ = false;
     uint64_t made_ = 0;
+    std::unique_ptr<Breaking> breaking_; // where bodies break
+    RoomToBreak to_break_;
+    uint32_t slots_ = 0; // of bodies, that have ever held one
 };
 
 } // namespace
@@ -309,10 +335,18 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     const uint32_t group_size = budget.group_size == 0 ? GROUP_SIZE : budget.group_size;
     if (auto sound = checkGroupSize(group_size, device.limits()); !sound) return sound.error();
     if (contents.bodies.empty()) return Error{ErrorCode::BadInput, "a world without bodies; add at least one"};
-    const uint64_t chosen =
-        std::max<uint64_t>({kLeastPairs, uint64_t{kPairsPerPiece} * contents.pieces.size(), 2 * contents.siblings.size()});
     BodyOrder order = orderById(contents);
     WorldContents sorted = inOrder(contents, order);
+    const bool breaks = effectsOf(settings).has(Effect::ImpactFracture) && !sorted.breakable.empty();
+    RoomToBreak to_break;
+    if (breaks) {
+        auto room = roomToBreak(sorted, budget.breaking);
+        if (!room) return room.error();
+        to_break = std::move(*room);
+        sorted = withRoom(sorted, to_break);
+    }
+    const uint64_t chosen =
+        std::max<uint64_t>({kLeastPairs, uint64_t{kPairsPerPiece} * sorted.pieces.size(), 2 * sorted.siblings.size()});
     const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
     auto buffers = makeWorldBuffers(device, sorted, room, budget.contacts, effectsOf(settings));
     if (!buffers) return buffers.error();
@@ -320,6 +354,8 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     given.group_size = group_size;
     auto world =
         std::make_unique<DeviceWorld>(device, std::move(order), std::move(sorted), std::move(*buffers), settings, given);
+    if (breaks)
+        if (auto made = world->makeBreakable(to_break); !made) return made.error();
     if (auto recorded = world->record(); !recorded) return recorded.error();
     return std::unique_ptr<World>(std::move(world));
 }

@@ -6,6 +6,7 @@
 
 #include "engine/commands.h"
 #include "engine/device.h"
+#include "modules/brittle/breaking/room_to_break.h"
 #include "modules/brittle/dynamics/step_plan.h"
 #include "modules/brittle/dynamics/step_settings.h"
 #include "modules/brittle/dynamics/world_contents.h"
@@ -24,6 +25,7 @@ struct WorldBudget {
     uint32_t contacts = 0; // pairs that touch; 0: as many as there are pairs
     uint32_t group_size =
         0; // lanes of a workgroup where a lane is an element (Fracture::create); states are the same, bit for bit
+    BreakingBudget breaking; // where bodies break
 };
 
 struct WorldCounts {
@@ -47,6 +49,7 @@ public:
     // a body, by its index as added, whose motion outgrew floats: it stays where it was, at rest.
     virtual engine::Result<void> step(uint32_t steps = 1) = 0;
 
+    // In the order in which they were added; behind them slots of fragments, some of which may be empty (BODY_ABSENT).
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;
     virtual engine::Result<WorldCounts> counts() = 0; // of the last step
     // Pieces whose boxes met in the last step, the lower one first, in order. None while all sleep.

@@ -105,7 +105,7 @@ void makeLasting(Maker& maker, const WorldContents& c, WorldBuffers& b) {
     b.shapes = make("shapes", c.shapes.size(), sizeof(gpu::BodyShape));
     b.counts = make("counts", STATUS_WORDS, 4);
     b.args = make("arguments", 9 * COUNT_TOTAL, 4);
-    b.steps = make("steps", 4, 4);
+    b.steps = make("steps", STEPS_WORDS, 4);
     makeHulls(maker, c, b);
 }
 
@@ -124,8 +124,19 @@ void addContacts(Upload& upload, const WorldContents& c, const WorldBuffers& b, 
     upload.add(std::span(&count, 1), before.count);
 }
 
+// Slots that hold nothing yet lie behind those that do.
+std::array<uint32_t, STEPS_WORDS> firstSteps(const WorldContents& c) {
+    const auto absent = [](const gpu::BodyState& body) { return (body.sector.w & BODY_ABSENT) != 0; };
+    const auto unused = [](const gpu::PieceRecord& piece) { return piece.ids.y == NO_INDEX; };
+    const auto bodies = std::ranges::find_if(c.bodies, absent) - c.bodies.begin();
+    const auto pieces = std::ranges::find_if(c.pieces, unused) - c.pieces.begin();
+    return {0, 0, static_cast<uint32_t>(bodies), static_cast<uint32_t>(pieces)};
+}
+
 Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b) {
     Upload upload;
+    const std::array<uint32_t, STEPS_WORDS> steps = firstSteps(c);
+    upload.add(std::span<const uint32_t>(steps), b.steps);
     upload.add(std::span(c.bodies), b.bodies);
     upload.add(std::span(c.shapes), b.shapes);
     const bool contacts = b.sizes.effects.has(Effect::Contacts);
@@ -138,7 +149,7 @@ Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b)
     if (auto begun = commands.begin(); !begun) return begun;
     for (const PairMemory& memory : b.memory)
         commands.fill(memory.count, 0);
-    for (const BufferView* view : {&b.counts, &b.args, &b.steps})
+    for (const BufferView* view : {&b.counts, &b.args})
         commands.fill(*view, 0);
     upload.copy(commands, *staging);
     return commands.submitAndWait();

@@ -4,7 +4,10 @@
 
 #include "engine/result.h"
 #include "modules/brittle/dynamics/hull_set.h"
+#include "modules/brittle/fracture/fragments.h"
 #include "shaders-spirv/shared/body.h"
+#include "shaders-spirv/shared/breaking.h"
+#include "shaders-spirv/shared/material.h"
 
 #include <array>
 #include <string>
@@ -51,6 +54,10 @@ struct WorldContents {
     std::vector<gpu::BodyShape> shapes;
     std::vector<uint64_t> ids;            // of bodies
     std::vector<SiblingContact> siblings; // a pair once, of different bodies
+    // What breaks (breaking/breakable.h), by body; those behind the last do not.
+    std::vector<gpu::BreakableBody> breakable;
+    std::vector<gpu::MaterialCard> cards;
+    std::vector<FragmentVertex> surface_vertices; // three a triangle
 };
 
 // Adds a body and returns its index. Where it fails the contents are as they were. Errors, with the body's name: BadInput for

@@ -15,7 +15,7 @@ constexpr EffectFacts kFacts[] = {
     {"What comes in fast leaves again with a share of its speed.", {Effect::Contacts}},
     {"Bodies that are fast for their size are held back where they would go too deep.", {Effect::Contacts}},
     {"Islands of bodies that have come to rest cost nothing until something touches them.", {Effect::Contacts}},
-    {"Bodies break where they are hit hard enough.", {Effect::Contacts}},
+    {"Bodies break where they are hit hard enough.", {Effect::Contacts, Effect::Ccd}},
     {"Fragments break again.", {Effect::ImpactFracture}},
     {"Cells of a body hold together until a load parts them.", {Effect::Contacts}},
     {"Loads are followed through bodies, which break where they cannot carry them.", {Effect::Bonds}},

@@ -1,0 +1,254 @@
+#include "modules/brittle/breaking/breaking.h"
+
+#include "engine/arena.h"
+#include "modules/brittle/breaking/adopt.h"
+#include "modules/brittle/breaking/break.h"
+#include "modules/brittle/fracture/collider_pools.h"
+#include "modules/brittle/fracture/scene_buffers.h"
+#include "modules/brittle/fracture/upload.h"
+
+#include <optional>
+#include <string>
+
+namespace brittle {
+namespace {
+
+using engine::BufferView;
+using engine::Device;
+using engine::Error;
+using engine::ErrorCode;
+using engine::Result;
+
+constexpr uint32_t kDirections = 26; // of the pieces that fragments collide by
+constexpr float kPause = 0.25f;      // s, in which what could not be broken is left alone
+constexpr float kForEver = 3e38f;
+constexpr uint32_t kOwnerBits = 8; // of the numbers of objects that break at once
+static_assert(MOST_BREAKING == 1 << kOwnerBits);
+
+// From step to step, and copied with the world.
+struct Lasting {
+    BufferView breakable, cards, surface_vertices;
+};
+
+// Made anew in every step.
+struct Passing {
+    BufferView blows, hardest, chosen, breaking, broken, cracks, ledger, adopted, returned;
+    BufferView owners, order, other_owners, other_order, sizes, begins, rooms, owner_start, lacking;
+    BufferView histogram, digit_offsets, sums;
+};
+
+struct Sizes {
+    uint32_t pairs = 0, bodies = 0, fragments = 0;
+};
+
+uint64_t tilesOf(uint64_t n) { return (n + RADIX_TILE - 1) / RADIX_TILE; }
+
+Lasting layOutLasting(engine::ScratchArena& arena, const WorldContents& c) {
+    return {arena.take(c.breakable.size() * sizeof(gpu::BreakableBody)), arena.take(c.cards.size() * sizeof(gpu::MaterialCard)),
+            arena.take(c.surface_vertices.size() * sizeof(FragmentVertex))};
+}
+
+Passing layOutPassing(engine::ScratchArena& arena, const Sizes& n) {
+    const auto words = [&](uint64_t count) { return arena.take(4 * std::max<uint64_t>(count, 4)); };
+    Passing p;
+    p.blows = arena.take(n.pairs * sizeof(gpu::BlowRecord));
+    p.hardest = words(n.bodies);
+    p.chosen = words(n.bodies);
+    p.breaking = arena.take(MOST_BREAKING * sizeof(gpu::BreakingRecord));
+    p.broken = arena.take(MOST_BREAKING * sizeof(gpu::BrokenBody));
+    p.cracks = words(MOST_BREAKING);
+    p.ledger = arena.take(MOST_BREAKING * sizeof(gpu::CrackLedger));
+    p.adopted = words(MOST_BREAKING);
+    p.returned = arena.take(MOST_BREAKING * sizeof(gpu::PoolShare));
+    for (BufferView* list : {&p.owners, &p.order, &p.other_owners, &p.other_order})
+        *list = words(n.fragments);
+    for (BufferView* list : {&p.sizes, &p.begins, &p.rooms})
+        *list = words(uint64_t{POOLS} * n.fragments);
+    p.owner_start = words(MOST_BREAKING + 1);
+    p.lacking = words(uint64_t{POOLS} * MOST_BREAKING);
+    const uint64_t histogram = tilesOf(n.fragments) << RADIX_BITS;
+    p.histogram = words(histogram);
+    p.digit_offsets = words(histogram + 1);
+    p.sums = words(histogram / SCAN_BLOCK + 2);
+    return p;
+}
+
+class DeviceBreaking final : public Breaking {
+public:
+    DeviceBreaking(Device& device, const RoomToBreak& room) : device_(device), room_(room) {}
+
+    Result<void> make(const WorldContents& contents, uint32_t pairs, uint32_t group_size) {
+        const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments};
+        event_ = planBreaking(device_, group_size, event, kDirections);
+        sizes_ = {pairs, static_cast<uint32_t>(contents.bodies.size()), event_.capacity.fragments};
+        room_.pools.requests = event_.capacity.fragments;
+        if (auto made = makeBuffers(contents); !made) return made;
+        return fill(contents);
+    }
+
+    void recordBlows(const Step& s) override {
+        const auto& world = s.record.counts();
+        s.record.commands().beginLabel("blows");
+        s.record.clear({p_.hardest, event_.b.counts, event_.b.args, p_.owner_start, p_.adopted});
+        s.record.commands().fill(p_.chosen, NO_INDEX);
+        const gpu::vec4 gravity = solverPush(s).gravity;
+        const float find[] = {gravity.x, gravity.y, gravity.z, gravity.w, static_cast<float>(s.settings.dt)};
+        s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), find,
+                     {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
+                      s.b.steps, p_.blows, p_.hardest});
+        const uint32_t struck[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
+        s.record.runGroups("publish_if", 1, struck, {world, s.record.args()});
+        s.record.run("choose_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
+                     {world, s.now.contacts, p_.blows, p_.hardest, p_.chosen});
+        s.record.run("hold_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
+                     {world, s.now.contacts, s.b.bodies, p_.blows, p_.chosen, s.b.step.touches, s.b.step.shares});
+        const uint32_t admit[] = {room_.step_bodies, room_.step_triangles, room_.step_sites, room_.most_fragments,
+                                  static_cast<uint32_t>(s.settings.breaking_seed)};
+        s.record.runGroups("admit_breaking", 1, admit,
+                           {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
+                            l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args});
+        s.record.commands().endLabel();
+    }
+
+    Result<void> recordEvent(const Step& s) override {
+        Recorder record(s.record.commands(), s.kernels, event_.b.counts, event_.b.args);
+        recordBreaking(record, event_, p_.breaking, l_.surface_vertices, scene_->views(), colliders_->views());
+        record.commands().beginLabel("rooms");
+        recordRequests(record);
+        recordTake(record, room_.pools, pools_, {COUNT_BREAKING, p_.sizes, p_.owner_start, p_.begins, p_.lacking},
+                   s.many_lanes);
+        record.run("give_rooms", Length::counted(COUNT_FRAGMENTS), engine::NoPush{},
+                   {record.counts(), p_.order, p_.sizes, p_.begins, p_.rooms, s.b.steps});
+        recordPayment(record, s);
+        record.commands().endLabel();
+        recordSwap(record, s);
+        return record.status();
+    }
+
+    std::vector<BufferView> stateViews() const override {
+        return {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges};
+    }
+    const std::vector<NamedBuffer>& buffers() const override { return named_; }
+    BufferView surfaceVertices() const override { return l_.surface_vertices; }
+    BufferView breakable() const override { return l_.breakable; }
+    BufferView eventCounts() const override { return event_.b.counts; }
+
+private:
+    GatherRoom gatherRoomFor() const { return roomFor(room_.step_bodies, room_.step_triangles); }
+
+    // Who is asked for what, object by object.
+    void recordRequests(Recorder& record) {
+        const BufferView& fragments = scene_->views().fragments;
+        const Length all = Length::counted(COUNT_FRAGMENTS);
+        record.run("key_fragments", all, engine::NoPush{}, {record.counts(), fragments, event_.b.sites, p_.owners, p_.order});
+        record.sort(COUNT_FRAGMENTS, kOwnerBits, {p_.owners, p_.other_owners}, {p_.order, p_.other_order},
+                    {p_.histogram, p_.digit_offsets, p_.sums});
+        record.run("ask_rooms", all, engine::NoPush{},
+                   {record.counts(), p_.owners, p_.order, fragments, colliders_->views().records, p_.sizes, p_.owner_start});
+        record.runGroups("measure_cracks", record.groupsOf(COUNT_BREAKING), engine::NoPush{},
+                         {record.counts(), p_.breaking, p_.owner_start, p_.order, fragments, p_.cracks});
+    }
+
+    void recordPayment(Recorder& record, const Step& s) {
+        const float push[] = {static_cast<float>(s.settings.dt), kPause};
+        record.run("pay_cracks", Length::counted(COUNT_BREAKING), push,
+                   {record.counts(), p_.broken, p_.cracks, p_.lacking, p_.owner_start, s.b.bodies, s.b.shapes, l_.breakable,
+                    l_.cards, s.b.steps, p_.ledger});
+    }
+
+    void recordSwap(Recorder& record, const Step& s) {
+        const BrokenParts parts = {scene_->views().fragments,
+                                   event_.b.sites,
+                                   scene_->views().vertices,
+                                   colliders_->views(),
+                                   p_.breaking,
+                                   p_.broken,
+                                   p_.rooms};
+        const BreakableWorld world = {s.b.bodies,   s.b.shapes,          s.b.pieces, s.b.hulls(),
+                                      l_.breakable, l_.surface_vertices, l_.cards,   s.b.steps};
+        const auto hold = s.has(Effect::Refracture) ? static_cast<float>(s.settings.blow_time) : kForEver;
+        const FragmentSettings settings = {s.settings.breaking_seed, hold, static_cast<float>(s.settings.dt)};
+        recordAdoption(record, parts, world, settings, p_.adopted);
+        recordRetirement(record, parts, world, p_.adopted, p_.returned);
+        record.commands().beginLabel("returns");
+        recordReturn(record, room_.pools, pools_, {COUNT_BREAKING, p_.returned}, s.many_lanes);
+        record.commands().endLabel();
+    }
+
+    // Planned by taking all from arenas that are too small.
+    Result<void> makeBuffers(const WorldContents& contents) {
+        auto scene = SceneBuffers::create(device_, event_.capacity.emitted, event_.capacity.fragments);
+        if (!scene) return scene.error();
+        scene_ = std::move(*scene);
+        auto colliders = ColliderBuffers::create(device_, event_.capacity);
+        if (!colliders) return colliders.error();
+        colliders_.emplace(std::move(*colliders));
+        auto plan = engine::ScratchArena::create(device_, 256, "plan"),
+             other = engine::ScratchArena::create(device_, 256, "plan");
+        if (!plan) return plan.error();
+        if (!other) return other.error();
+        const auto laid_out = layOutAll(*plan, *other, contents);
+        if (!laid_out) return laid_out.error();
+        if (*laid_out > device_.limits().maxStorageBufferRange) return tooLarge(*laid_out);
+        auto lasting = engine::ScratchArena::create(device_, plan->peak(), "breaking"),
+             passing = engine::ScratchArena::create(device_, other->peak(), "breaking, in a step");
+        if (!lasting) return lasting.error();
+        if (!passing) return passing.error();
+        lasting_.emplace(std::move(*lasting));
+        passing_.emplace(std::move(*passing));
+        if (auto done = layOutAll(*lasting_, *passing_, contents); !done) return done.error();
+        if (auto fits = lasting_->status(); !fits) return fits;
+        return passing_->status();
+    }
+
+    // Bytes of the largest list.
+    Result<uint64_t> layOutAll(engine::ScratchArena& lasting, engine::ScratchArena& passing, const WorldContents& contents) {
+        l_ = layOutLasting(lasting, contents);
+        p_ = layOutPassing(passing, sizes_);
+        auto pools = layOutPools(lasting, passing, room_.pools);
+        if (!pools) return pools.error();
+        pools_ = *pools;
+        return std::max(layOutBreaking(passing, event_), l_.surface_vertices.size);
+    }
+
+    Error tooLarge(uint64_t bytes) const {
+        return {ErrorCode::Capacity,
+                "what breaks in a step needs a list of " + std::to_string(bytes >> 20) + " MiB, the device can bind " +
+                    std::to_string(device_.limits().maxStorageBufferRange >> 20) + "; use smaller budgets for breaking"};
+    }
+
+    Result<void> fill(const WorldContents& contents) {
+        const auto pools = poolsWith(room_.pools, room_.free);
+        if (!pools) return pools.error();
+        Upload upload;
+        upload.add(std::span(contents.breakable), l_.breakable);
+        upload.add(std::span(contents.cards), l_.cards);
+        upload.add(std::span(contents.surface_vertices), l_.surface_vertices);
+        upload.add(std::span<const gpu::PoolHeader>(pools->headers), pools_.headers);
+        upload.add(std::span(pools->ranges), pools_.free_ranges);
+        return upload.send(device_);
+    }
+
+    Device& device_;
+    RoomToBreak room_;
+    Sizes sizes_;
+    BreakingEvent event_;
+    std::optional<SceneBuffers> scene_;
+    std::optional<ColliderBuffers> colliders_;
+    std::optional<engine::ScratchArena> lasting_, passing_;
+    Lasting l_;
+    Passing p_;
+    PoolBuffers pools_;
+    std::vector<NamedBuffer> named_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Breaking>> Breaking::create(Device& device, const WorldContents& contents, const RoomToBreak& room,
+                                                   uint32_t pairs, uint32_t group_size) {
+    auto breaking = std::make_unique<DeviceBreaking>(device, room);
+    if (auto made = breaking->make(contents, pairs, group_size); !made) return made.error();
+    return std::unique_ptr<Breaking>(std::move(breaking));
+}
+
+} // namespace brittle

@@ -1,0 +1,36 @@
+// Breaking, as a part of the step of a world (shaders-spirv/shared/breaking.h).
+//
+// Before contacts are solved it is known which of them break what they touch: these are left out of the solving, and bodies
+// stop where they meet. When the step has ended, the bodies that were hit are broken by one event of fracture, their cracks are
+// paid for by the motion of who met, and their fragments take their place. All of it is recorded once and dispatched by counts
+// that the device finds out, 0 of them in a step in which nothing breaks.
+#pragma once
+
+#include "modules/brittle/breaking/room_to_break.h"
+#include "modules/brittle/dynamics/step.h"
+
+#include <memory>
+
+namespace brittle {
+
+class Breaking {
+public:
+    // `contents` with room, as the world has them; `pairs`: of the broad phase, that there is room for. Errors: Capacity, with
+    // the list that the device cannot bind; Device.
+    static engine::Result<std::unique_ptr<Breaking>> create(engine::Device& device, const WorldContents& contents,
+                                                            const RoomToBreak& room, uint32_t pairs, uint32_t group_size);
+    virtual ~Breaking() = default;
+
+    virtual void recordBlows(const Step& step) = 0;
+    virtual engine::Result<void> recordEvent(const Step& step) = 0;
+
+    // All that the next step depends on, beside what the world has.
+    virtual std::vector<engine::BufferView> stateViews() const = 0;
+    virtual const std::vector<NamedBuffer>& buffers() const = 0;
+    // SceneVertices, three a triangle, of all surfaces; gpu::BreakableBody, a body each.
+    virtual engine::BufferView surfaceVertices() const = 0;
+    virtual engine::BufferView breakable() const = 0;
+    virtual engine::BufferView eventCounts() const = 0;
+};
+
+} // namespace brittle

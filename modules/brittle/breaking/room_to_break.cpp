@@ -1,0 +1,120 @@
+#include "modules/brittle/breaking/room_to_break.h"
+
+#include "modules/brittle/breaking/breakable.h"
+
+#include <algorithm>
+
+namespace brittle {
+namespace {
+
+constexpr uint32_t kFragments = 1024, kFacesOfOne = 24, kTrianglesOfOne = 96;
+constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256;
+
+uint32_t timesRounded(uint32_t count, uint32_t each) { return (count + each - 1) / each; }
+
+// How many faces' worth of room a hull takes.
+uint32_t faceRoom(const gpu::HullRecord& hull) {
+    return std::max({hull.count.y, timesRounded(hull.count.x, VERTICES_A_FACE), timesRounded(hull.count.w, EDGES_A_FACE),
+                     timesRounded(hull.count.z, CORNERS_A_FACE)});
+}
+
+uint32_t faceRoom(const WorldContents& contents) {
+    uint32_t faces = 0;
+    for (const gpu::PieceRecord& piece : contents.pieces)
+        faces += faceRoom(contents.hulls.records[piece.ids.x]);
+    return faces;
+}
+
+uint32_t trianglesOf(const gpu::BreakableBody& body) { return (body.surface.y + body.surface.z) / 3; }
+
+uint32_t largestSurface(const WorldContents& contents) {
+    uint32_t most = 0;
+    for (const gpu::BreakableBody& body : contents.breakable)
+        most = std::max(most, trianglesOf(body));
+    return most;
+}
+
+uint32_t chosen(uint32_t given, uint32_t usual) { return given != 0 ? given : usual; }
+
+template <class T>
+void copyRange(const std::vector<T>& from, size_t first, size_t count, std::vector<T>& to, size_t at) {
+    std::copy_n(from.begin() + static_cast<ptrdiff_t>(first), count, to.begin() + static_cast<ptrdiff_t>(at));
+}
+
+void copyHull(const HullSet& from, gpu::HullRecord record, uint32_t first_face, HullSet& to, uint32_t slot) {
+    copyRange(from.vertices, record.first.x, record.count.x, to.vertices, VERTICES_A_FACE * first_face);
+    copyRange(from.faces, record.first.y, record.count.y, to.faces, first_face);
+    copyRange(from.corners, record.first.z, record.count.z, to.corners, CORNERS_A_FACE * first_face);
+    copyRange(from.edges, record.first.w, record.count.w, to.edges, EDGES_A_FACE * first_face);
+    for (uint32_t f = 0; f < record.count.y; ++f)
+        to.faces[first_face + f].loop.x += CORNERS_A_FACE * first_face - record.first.z;
+    record.first = {VERTICES_A_FACE * first_face, first_face, CORNERS_A_FACE * first_face, EDGES_A_FACE * first_face};
+    to.records[slot] = record;
+}
+
+HullSet spreadHulls(const WorldContents& contents, const RoomToBreak& room) {
+    const uint32_t faces = room.pools.capacity[POOL_FACES];
+    HullSet spread;
+    spread.records.resize(room.pools.capacity[POOL_PIECES]);
+    spread.vertices.resize(size_t{VERTICES_A_FACE} * faces);
+    spread.faces.resize(faces);
+    spread.corners.resize(size_t{CORNERS_A_FACE} * faces);
+    spread.edges.resize(size_t{EDGES_A_FACE} * faces);
+    uint32_t first = 0;
+    for (uint32_t slot = 0; slot < contents.pieces.size(); ++slot) {
+        const gpu::HullRecord& record = contents.hulls.records[contents.pieces[slot].ids.x];
+        copyHull(contents.hulls, record, first, spread, slot);
+        first += faceRoom(record);
+    }
+    return spread;
+}
+
+gpu::BodyState absentBody() {
+    gpu::BodyState body{};
+    body.sector.w = BODY_ABSENT;
+    body.turn = {0, 0, 0, 1};
+    return body;
+}
+
+} // namespace
+
+engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget) {
+    RoomToBreak room;
+    const uint32_t fragments = chosen(budget.fragments, kFragments);
+    room.step_bodies = std::min<uint32_t>(chosen(budget.step_bodies, kStepBodies), MOST_BREAKING);
+    room.step_triangles = chosen(budget.step_triangles, std::max(kStepTriangles, 2 * largestSurface(contents)));
+    room.step_sites = chosen(budget.step_sites, kStepSites);
+    room.most_fragments = std::min(chosen(budget.most_fragments, kFragmentsOfOne), room.step_sites);
+    room.bodies = static_cast<uint32_t>(contents.bodies.size());
+    room.pieces = static_cast<uint32_t>(contents.pieces.size());
+    const uint32_t faces = faceRoom(contents), triangles = static_cast<uint32_t>(contents.surface_vertices.size() / 3);
+    const std::array<uint32_t, POOLS> taken = {room.bodies, room.pieces, faces, triangles};
+    PoolRoom& pools = room.pools;
+    pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + kFacesOfOne * fragments,
+                      triangles + chosen(budget.triangles, kTrianglesOfOne * fragments)};
+    // What cannot break gives nothing back.
+    const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
+    pools.objects = fragments + static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
+    pools.returned = pools.owners = room.step_bodies;
+    pools.requests = 2 * room.step_sites + 256;
+    for (size_t k = 0; k < POOLS; ++k)
+        room.free[k] = {{taken[k], pools.capacity[k] - taken[k]}};
+    if (auto state = poolsWith(pools, room.free); !state) return state.error();
+    return room;
+}
+
+WorldContents withRoom(const WorldContents& contents, const RoomToBreak& room) {
+    WorldContents larger = contents;
+    larger.hulls = spreadHulls(contents, room);
+    for (uint32_t slot = 0; slot < larger.pieces.size(); ++slot)
+        larger.pieces[slot].ids.x = slot;
+    larger.pieces.resize(room.pools.capacity[POOL_PIECES], {{0, NO_INDEX, 0, 0}});
+    larger.bodies.resize(room.pools.capacity[POOL_BODIES], absentBody());
+    larger.shapes.resize(larger.bodies.size());
+    larger.ids.resize(larger.bodies.size());
+    larger.breakable.resize(larger.bodies.size(), unbreakable());
+    larger.surface_vertices.resize(3 * size_t{room.pools.capacity[POOL_TRIANGLES]});
+    return larger;
+}
+
+} // namespace brittle

@@ -1,0 +1,34 @@
+// How much may break: in a world at a time, and in one step.
+#pragma once
+
+#include "modules/brittle/breaking/world_pools.h"
+#include "modules/brittle/dynamics/world_contents.h"
+
+namespace brittle {
+
+// 0: chosen by what the contents are.
+struct BreakingBudget {
+    uint32_t fragments = 0;      // that there are at a time
+    uint32_t triangles = 0;      // of their surfaces
+    uint32_t step_bodies = 0;    // that break in a step, at most MOST_BREAKING; others wait
+    uint32_t step_triangles = 0; // of their surfaces; a body with more never breaks
+    uint32_t step_sites = 0;
+    uint32_t most_fragments = 0; // of one body
+};
+
+struct RoomToBreak {
+    uint32_t step_bodies = 0, step_triangles = 0, step_sites = 0, most_fragments = 0;
+    uint32_t bodies = 0, pieces = 0; // that there are before anything breaks
+    PoolRoom pools;
+    FreeLists free; // before anything breaks
+};
+
+// Every number given. Errors: Capacity for more than pools can hold (world_pools.h).
+engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget);
+
+// The contents with empty slots for all that there is room for: absent bodies and pieces, and hulls laid out as fragments' are,
+// each in the slot of its piece, its vertices, edges and corners so many times its first face as
+// shaders-spirv/shared/breaking.h says.
+WorldContents withRoom(const WorldContents& contents, const RoomToBreak& room);
+
+} // namespace brittle
