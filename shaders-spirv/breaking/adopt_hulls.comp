@@ -102,7 +102,8 @@ float takeFaces(ColliderRecord collider, vec4 turn, vec3 center, uint to, uint t
         ColliderFaceRecord face = collider_faces[collider.range.x + k];
         vec3 normal = normalize(turned(turn, face.plane.xyz));
         float height = takeLoop(k, face.loop.xy, collider, normal, to_corners);
-        hull_faces[to + k] = HullFace(vec4(normal, height), uvec4(to_corners + face.loop.x - collider.info.x, face.loop.y, 0u, 0u));
+        uint first = to_corners + face.loop.x - collider.info.x;
+        hull_faces[to + k] = HullFace(vec4(normal, height), uvec4(first, face.loop.y, 0u, 0u));
         near = min(near, height - dot(normal, center));
     }
     return -joinEnds(vec4(0.0, 0.0, 0.0, -near)).w;

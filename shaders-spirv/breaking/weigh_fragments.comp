@@ -1,5 +1,5 @@
-// Fragments become bodies, a lane a fragment: what each weighs, its principal axes, where it is and how it moves, which is as the
-// body moved there that it was a part of, and how strong it is.
+// Fragments become bodies, a lane a fragment: what each weighs, its principal axes, where it is and how it moves, which is as
+// the body moved there that it was a part of, and how strong it is.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -57,7 +57,8 @@ vec3 extentOf(ColliderRecord collider, vec4 axes) {
 
 Weighed weighed(uint f, float density, float unit) {
     FragmentRecord r = fragments[f];
-    float volume = max(r.measure.x, kLeastVolume), size = max(max(max(r.squares.x, r.squares.y), r.squares.z) / volume, 1e-16);
+    float volume = max(r.measure.x, kLeastVolume);
+    float size = max(max(max(r.squares.x, r.squares.y), r.squares.z) / volume, 1e-16);
     Spread spread = Spread(r.squares.xyz / volume / size, r.products.zyx / volume / size);
     vec4 axes = principalTurn(spread);
     vec3 along = soundMoments(size * momentsAlong(spread, axes), extentOf(colliders[f], axes));
@@ -74,7 +75,8 @@ BodyState stateOf(Weighed w, BodyState parent, BreakableBody whole, vec3 center)
     vec3 momentum = turned(turn, w.moments * turned(turnBack(turn), parent.spin.xyz));
     return BodyState(ivec4(parent.sector.xyz + sectors, parent.sector.w & ~BODY_ASLEEP),
                      vec4(offsetWithin(offset, sectors), 1.0 / w.mass), turn,
-                     vec4(parent.velocity.xyz + cross(parent.spin.xyz, way), 0.0), vec4(parent.spin.xyz, 0.0), vec4(momentum, 0.0));
+                     vec4(parent.velocity.xyz + cross(parent.spin.xyz, way), 0.0), vec4(parent.spin.xyz, 0.0),
+                     vec4(momentum, 0.0));
 }
 
 // Its pieces, thickness and reach are those of its hull, which another kernel makes.
@@ -94,8 +96,10 @@ float strengthFor(uint f, uint parent, Weighed w, uint material) {
 void setBreakable(uint slot, uint f, Weighed w, uint parent, float unit) {
     FragmentRecord r = fragments[f];
     uint material = breakable[parent].surface.w, earlier = r.fate.w;
-    breakable[slot].surface = uvec4(3u * rooms[f][ROOM_TRIANGLES], 3u * (r.range.z - earlier), 3u * (earlier + r.range.w), material);
-    breakable[slot].form = vec4(w.volume, r.measure.y * unit * unit, strengthFor(f, parent, w, material), float(steps[STEPS_MADE]) * duration + hold);
+    uvec3 triangles = uvec3(rooms[f][ROOM_TRIANGLES], r.range.z - earlier, earlier + r.range.w);
+    float until = float(steps[STEPS_MADE]) * duration + hold;
+    breakable[slot].surface = uvec4(3u * triangles, material);
+    breakable[slot].form = vec4(w.volume, r.measure.y * unit * unit, strengthFor(f, parent, w, material), until);
     breakable[slot].balance = vec4(w.balance, 0.0);
     breakable[slot].turn = turnBack(w.axes);
 }

@@ -297,6 +297,7 @@ Scene breakTogether(std::vector<ToBreak> objects, uint64_t seed) {
     Scene scene;
     Random random(seed);
     std::vector<brittle::BreakingObject> breaking;
+    breaking.reserve(objects.size());
     for (const ToBreak& object : objects)
         breaking.push_back({object.model.prepared.mesh, object.model.prepared.topology, sitesOf(object)});
     std::vector<brittle::FractureResult> results = broken(breaking);
