@@ -24,7 +24,7 @@ Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity,
 }
 
 BufferView ScratchArena::take(VkDeviceSize bytes) {
-    const VkDeviceSize size = (std::max(bytes, kMinTake) + 3) / 4 * 4;
+    const VkDeviceSize size = (std::max(bytes, kMinTake) + 15) / 16 * 16; // kernels clear four words at a time
     const VkDeviceSize begin = used_;
     used_ = (begin + size + alignment_ - 1) / alignment_ * alignment_;
     peak_ = std::max(peak_, begin + size);

@@ -16,7 +16,7 @@ public:
     // The capacity is fixed: plan it first.
     static Result<ScratchArena> create(Device& device, VkDeviceSize capacity, std::string_view name = "scratch");
 
-    // A range that can be bound as storage, of at least 16 bytes. Where it does not fit the view is empty and status() fails
+    // A range that can be bound as storage, of a multiple of 16 bytes and not less than that. Where it does not fit the view is empty and status() fails
     // until the next reset(); taking goes on, so that the message names all that would have been needed.
     BufferView take(VkDeviceSize bytes);
     Mark mark() const { return used_; }

@@ -17,6 +17,7 @@ kernel(primitives/scan_reduce.comp NAME scan_reduce4 DEFINES CHANNELS=4)
 kernel(primitives/scan_apply.comp)
 kernel(primitives/scan_apply.comp NAME scan_apply4 DEFINES CHANNELS=4)
 kernel(primitives/compact.comp)
+kernel(primitives/clear_words.comp)
 kernel(primitives/publish_count.comp)
 kernel(primitives/publish_if.comp)
 kernel(primitives/publish_sum.comp)
@@ -141,7 +142,7 @@ kernel(narrow_phase/find_fixed_axes.comp)
 kernel(narrow_phase/build_manifolds.comp)
 
 # What breaks, made ready.
-foreach(name IN ITEMS check_breaking find_blows choose_blows hold_blows admit_breaking key_fragments ask_rooms measure_cracks
+foreach(name IN ITEMS open_event check_breaking find_blows choose_blows hold_blows admit_breaking key_fragments ask_rooms measure_cracks
         give_rooms pay_cracks weigh_fragments adopt_hulls adopt_surfaces retire_bodies gather_corners flag_firsts flag_solid place_breaking
         write_vertices write_triangles write_edges)
     kernel(breaking/${name}.comp)

@@ -81,7 +81,10 @@
 #define COUNT_MESH_EDGES 54
 #define COUNT_ASKED_SITES 55
 #define COUNT_BINS 56             /* of the search grid */
-#define COUNT_TOTAL 57
+#define COUNT_EVENT 57            /* 1 where the device has found something that breaks */
+#define COUNT_CLEARING 58         /* workgroups that clear tables then */
+#define CLEARING_GROUPS 64u
+#define COUNT_TOTAL 59
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL

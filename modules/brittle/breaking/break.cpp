@@ -72,7 +72,8 @@ uint64_t layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event) {
 void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, engine::BufferView vertices,
                     const ScenePools& scene, const ColliderPools& colliders) {
     const EventBuffers& b = event.b;
-    record.publishSum(COUNT_BINS, NO_INDEX, {{COUNT_BREAKING, event.grid.binCount() / event.grid.tiles}});
+    record.runGroups("open_event", 1, event.grid.binCount() / event.grid.tiles, {record.counts(), record.args()});
+    record.gate();
     recordGather(record, event.room.mesh, event.gather, breaking, vertices);
     recordBreakingSites(record, event.gather, breaking, b.raw_sites, b.placed);
     recordFracture({.grid = event.grid,

@@ -57,7 +57,10 @@ void Recorder::sort(uint32_t count, uint32_t bits, const engine::BufferView (&ke
 
 void Recorder::clear(Views views) {
     for (const engine::BufferView& view : views)
-        commands_.fill(view, 0);
+        if (is_gated_)
+            runGroups("clear_words", groupsOf(COUNT_CLEARING), static_cast<uint32_t>(view.size / 16), {view});
+        else
+            commands_.fill(view, 0);
 }
 
 void Recorder::publish(uint32_t count, uint32_t capacity) {

@@ -53,6 +53,7 @@ public:
     // A workgroup an element.
     template <class Push>
     void runGroups(std::string_view name, uint32_t groups, const Push& push, Views buffers) {
+        if (is_gated_ && groups == 1) return runGroups(name, groupsOf(COUNT_EVENT), push, buffers);
         if (const engine::Kernel* kernel = find(name, 0)) commands_.dispatchGroups(*kernel, groups, push, buffers);
     }
     template <class Push>
@@ -68,6 +69,9 @@ public:
     void sort(uint32_t count, uint32_t bits, const engine::BufferView (&keys)[2], const engine::BufferView (&values)[2],
               const RadixBuffers& room);
     void clear(Views views);
+    // From now on what is dispatched over no count, a workgroup or the clearing of a buffer, hangs on COUNT_EVENT and
+    // COUNT_CLEARING: where the device has found nothing to do it costs as little as all else.
+    void gate() { is_gated_ = true; }
     // Makes a count that kernels built with atomics known to dispatches.
     void publish(uint32_t count, uint32_t capacity);
     // Publishes a sum of up to four other counts, each so many times.
@@ -96,6 +100,7 @@ private:
     engine::BufferView counts_;
     engine::BufferView args_;
     Precision precision_;
+    bool is_gated_ = false;
     std::optional<engine::Error> error_;
 };
 
