@@ -57,6 +57,18 @@ struct CrackLedger {
     vec4 energies; // of the motion of both before and after, J that their cracks cost; w: m2 of this body's cracks
 };
 
+// What the host is told of it. Of two that break each other, the first one's energies are those of both.
+struct BreakEvent {
+    uvec4 what;    // step, counted from 1; body, what hit it, its material
+    uvec4 made;    // fragments; 0 where the body stayed whole, for want of room
+    ivec4 sector;  // of the place of the blow
+    vec4 offset;
+    vec4 along;    // normal, from the body to the other
+    vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
+    vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack
+};
+#define BREAK_EVENTS 1024 /* that are kept */
+
 // Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of the
 // surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools at
 // that many times its first face.
@@ -76,6 +88,6 @@ GPU_NAMESPACE_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 && sizeof(gpu::BlowRecord) == 64);
-static_assert(sizeof(gpu::CrackLedger) == 32);
+static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 112);
 #endif
 #endif

@@ -1,11 +1,15 @@
 // Worlds in which bodies break: where they are hit, as hard as they are hit, without the host.
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/scene_contents.h"
+#include "modules/brittle/effects/material.h"
+#include "modules/brittle/mesh/vector_math.h"
 #include "tests/engine/test_device.h"
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace {
 
@@ -24,18 +28,18 @@ BodyDescription ball(brittle::Double3 place, const char* material) {
 
 SceneDescription sceneOf(std::vector<BodyDescription> bodies, bool floor = true) {
     SceneDescription scene;
-    scene.effects = {"gravity", "contacts", "friction", "impact_fracture"};
+    scene.effects = {"gravity", "contacts", "friction", "impact_fracture", "events"};
     scene.bodies = std::move(bodies);
     if (floor) scene.colliders.push_back({});
     return scene;
 }
 
-std::unique_ptr<brittle::World> worldOf(const SceneDescription& scene) {
+std::unique_ptr<brittle::World> worldOf(const SceneDescription& scene, const brittle::WorldBudget& budget = {}) {
     const auto contents = brittle::contentsOf(scene, {}, nullptr);
     EXPECT_TRUE(contents) << contents.error().message;
     const auto settings = brittle::settingsOf(scene);
     EXPECT_TRUE(settings);
-    auto world = brittle::World::create(engine_test::device(), *contents, *settings);
+    auto world = brittle::World::create(engine_test::device(), *contents, *settings, budget);
     EXPECT_TRUE(world) << world.error().message;
     return std::move(*world);
 }
@@ -56,22 +60,67 @@ double massOf(const std::vector<gpu::BodyState>& bodies) {
     return mass;
 }
 
+void step(brittle::World& world, uint32_t steps = 1) {
+    const auto done = world.step(steps);
+    ASSERT_TRUE(done) << done.error().message;
+}
+
+// Steps until something breaks, for so many steps at most, and returns what did.
+std::vector<gpu::BreakEvent> stepUntilItBreaks(brittle::World& world, uint32_t most) {
+    for (uint32_t k = 0; k < most; ++k) {
+        step(world);
+        const auto breaks = world.breaks();
+        EXPECT_TRUE(breaks);
+        if (!breaks->events.empty()) return breaks->events;
+    }
+    return {};
+}
+
+using brittle::Double3, brittle::operator+, brittle::operator-, brittle::operator*;
+
+struct Motion {
+    double mass = 0, energy = 0;
+    Double3 momentum = {0, 0, 0}, angular = {0, 0, 0};
+};
+
+Double3 vectorOf(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
+
+Motion motionOf(const std::vector<gpu::BodyState>& bodies) {
+    Motion sum;
+    sum.energy = brittle::kineticEnergyOf(bodies);
+    for (const gpu::BodyState& body : bodies) {
+        const double mass = 1.0 / body.offset.w;
+        const Double3 momentum = mass * vectorOf(body.velocity);
+        sum.mass += mass;
+        sum.momentum = sum.momentum + momentum;
+        sum.angular = sum.angular + vectorOf(body.momentum) + brittle::cross(brittle::poseOf(body).place, momentum);
+    }
+    return sum;
+}
+
+double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
+
+// In empty space: a ball that breaks, and one that does not, which hits it off its middle. Far enough away to fly a while.
+SceneDescription shot(double speed, const char* material) {
+    SceneDescription scene = sceneOf({ball({0, 0, 0}, material), ball({-0.6, 0.06, 0}, "")}, false);
+    scene.effects = {"contacts", "impact_fracture", "events"};
+    scene.bodies[1].velocity = {speed, 0, 0};
+    scene.bodies[1].mass = 4;
+    return scene;
+}
+
 TEST(BreakingWorld, ABallOfGlassThatFallsFromHighUpBreaks) {
     const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass")}));
     const double mass = massOf(presentBodies(*world));
-    for (uint32_t step = 0; step < 60 && presentBodies(*world).size() == 1; ++step) {
-        const auto done = world->step();
-        ASSERT_TRUE(done) << done.error().message;
-    }
+    const auto events = stepUntilItBreaks(*world, 60);
+    ASSERT_EQ(events.size(), 1u);
     const auto fragments = presentBodies(*world);
-    EXPECT_GT(fragments.size(), 2u);
+    EXPECT_EQ(fragments.size(), events[0].made.x);
+    EXPECT_GT(fragments.size(), 100u);
     EXPECT_NEAR(massOf(fragments), mass, 1e-6 * mass);
-    for (uint32_t step = 0; step < 60; ++step) {
-        const auto done = world->step();
-        ASSERT_TRUE(done) << done.error().message;
-    }
+    step(*world, 60);
     for (const gpu::BodyState& body : presentBodies(*world)) {
-        const brittle::Double3 place = brittle::poseOf(body).place;
+        const Double3 place = brittle::poseOf(body).place;
         EXPECT_GT(place[1], -0.01);
         EXPECT_LT(std::hypot(place[0], place[2]), 30);
     }
@@ -80,9 +129,151 @@ TEST(BreakingWorld, ABallOfGlassThatFallsFromHighUpBreaks) {
 
 TEST(BreakingWorld, ABallThatIsSetDownDoesNotBreak) {
     const auto world = worldOf(sceneOf({ball({0, kBall + 0.001, 0}, "glass")}));
-    const auto done = world->step(30);
-    ASSERT_TRUE(done) << done.error().message;
+    step(*world, 30);
     EXPECT_EQ(presentBodies(*world).size(), 1u);
+}
+
+TEST(BreakingWorld, WhatBreaksKeepsMassAndMomentumAndPaysForItsCracks) {
+    for (const char* material : {"concrete", "stone"}) {
+        const auto world = worldOf(shot(8, material));
+        const Motion before = motionOf(presentBodies(*world));
+        const auto events = stepUntilItBreaks(*world, 30);
+        ASSERT_EQ(events.size(), 1u) << material;
+        const Motion after = motionOf(presentBodies(*world));
+        EXPECT_NEAR(after.mass, before.mass, 1e-6 * before.mass);
+        EXPECT_LT(sizeOf(after.momentum - before.momentum), 1e-5 * sizeOf(before.momentum));
+        EXPECT_LT(sizeOf(after.angular - before.angular), 1e-5 * sizeOf(before.angular));
+        const gpu::vec4& paid = events[0].energies;
+        EXPECT_NEAR(before.energy - after.energy, double{paid.z}, 1e-5 * before.energy) << "all that is lost went into cracks";
+        EXPECT_NEAR(paid.x - paid.y, paid.z, 1e-5 * before.energy);
+        const brittle::Material* card = brittle::findMaterial(material);
+        EXPECT_NEAR(paid.z, card->fracture_energy * double{paid.w}, 1e-4 * double{paid.z});
+        EXPECT_GT(events[0].made.x, 2u);
+    }
+}
+
+TEST(BreakingWorld, FragmentsMoveAsTheirBodyDidWhereTheyAre) {
+    SceneDescription scene = shot(8, "concrete");
+    scene.bodies[0].spin = {3, -2, 5};
+    const auto world = worldOf(scene);
+    ASSERT_EQ(stepUntilItBreaks(*world, 30).size(), 1u);
+    auto fragments = presentBodies(*world);
+    std::erase_if(fragments, [](const gpu::BodyState& body) { return std::fabs(1 / body.offset.w - 4) < 1e-4; });
+    const Motion sum = motionOf(fragments);
+    const Double3 velocity = (1 / sum.mass) * sum.momentum, spin = vectorOf(fragments[0].spin);
+    Double3 center = {0, 0, 0};
+    for (const gpu::BodyState& body : fragments)
+        center = center + (1 / (double{body.offset.w} * sum.mass)) * brittle::poseOf(body).place;
+    for (const gpu::BodyState& body : fragments) {
+        const Double3 there = velocity + brittle::cross(spin, brittle::poseOf(body).place - center);
+        EXPECT_LT(sizeOf(vectorOf(body.velocity) - there), 1e-4);
+        EXPECT_LT(sizeOf(vectorOf(body.spin) - spin), 1e-4);
+    }
+}
+
+TEST(BreakingWorld, StepsDoNotDecideHowHardAFlyingBodyIsHit) {
+    std::vector<gpu::BreakEvent> hits;
+    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
+        SceneDescription scene = shot(8, "concrete");
+        scene.step.dt = dt;
+        const auto world = worldOf(scene);
+        const auto events = stepUntilItBreaks(*world, 60);
+        ASSERT_EQ(events.size(), 1u) << dt;
+        hits.push_back(events[0]);
+    }
+    for (const gpu::BreakEvent& hit : hits) {
+        EXPECT_NEAR(hit.blow.z, hits[1].blow.z, 0.01 * double{hits[1].blow.z});
+        EXPECT_NEAR(hit.made.x, hits[1].made.x, 0.05 * hits[1].made.x);
+    }
+}
+
+TEST(BreakingWorld, StepsHardlyDecideHowHardAFallIs) {
+    std::vector<gpu::BreakEvent> hits;
+    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
+        SceneDescription scene = sceneOf({ball({0, 2, 0}, "concrete")});
+        scene.step.dt = dt;
+        const auto world = worldOf(scene);
+        const auto events = stepUntilItBreaks(*world, 120);
+        ASSERT_EQ(events.size(), 1u) << dt;
+        hits.push_back(events[0]);
+    }
+    for (const gpu::BreakEvent& hit : hits) {
+        EXPECT_NEAR(hit.blow.z, hits[1].blow.z, 0.05 * double{hits[1].blow.z});
+        EXPECT_NEAR(hit.made.x, hits[1].made.x, 0.15 * hits[1].made.x);
+    }
+}
+
+TEST(BreakingWorld, IsTheSameBitForBitInEveryRunAndWithGroupsOfAnySize) {
+    std::vector<uint64_t> hashes;
+    for (const uint32_t group_size : {64u, 64u, 32u}) {
+        brittle::WorldBudget budget;
+        budget.group_size = group_size;
+        const auto world = worldOf(shot(8, "concrete"), budget);
+        ASSERT_EQ(stepUntilItBreaks(*world, 30).size(), 1u);
+        step(*world, 20);
+        const auto hash = world->hash();
+        ASSERT_TRUE(hash);
+        hashes.push_back(*hash);
+    }
+    EXPECT_EQ(hashes[1], hashes[0]);
+    EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+TEST(BreakingWorld, GoesOnFromASavedStateAsIfNothingHadHappened) {
+    const auto world = worldOf(shot(8, "concrete"));
+    step(*world, 2);
+    const auto state = world->save();
+    ASSERT_TRUE(state);
+    step(*world, 30);
+    const auto hash = world->hash();
+    ASSERT_TRUE(world->restore(*state));
+    step(*world, 30);
+    EXPECT_EQ(*world->hash(), *hash);
+    EXPECT_GT(presentBodies(*world).size(), 3u);
+}
+
+TEST(BreakingWorld, TenBodiesBreakInOneStep) {
+    std::vector<BodyDescription> bodies;
+    for (int k = 0; k < 10; ++k)
+        bodies.push_back(ball({0.5 * k, 2, 0}, "concrete"));
+    const auto world = worldOf(sceneOf(std::move(bodies)));
+    const double mass = massOf(presentBodies(*world));
+    EXPECT_EQ(stepUntilItBreaks(*world, 60).size(), 10u);
+    EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-6 * mass);
+}
+
+TEST(BreakingWorld, FragmentsBreakAgainWhereThatIsAskedFor) {
+    for (const bool again : {false, true}) {
+        SceneDescription scene = sceneOf({ball({0, 2, 0}, "concrete"), ball({0, 6, 0}, "")});
+        if (again) scene.effects.push_back("refracture");
+        scene.bodies[1].mass = 60;
+        scene.bodies[1].velocity = {0, -8, 0};
+        const auto world = worldOf(scene);
+        const double mass = massOf(presentBodies(*world));
+        uint32_t of_fragments = 0;
+        for (uint32_t k = 0; k < 60; ++k) {
+            step(*world);
+            const auto breaks = world->breaks();
+            ASSERT_TRUE(breaks);
+            for (const gpu::BreakEvent& event : breaks->events)
+                of_fragments += event.what.y >= 3 && event.made.x > 0 ? 1 : 0;
+        }
+        EXPECT_EQ(of_fragments > 0, again);
+        EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-5 * mass);
+    }
+}
+
+TEST(BreakingWorld, WhatThereIsNoRoomForStaysWholeAndIsStoppedAsAnyBody) {
+    brittle::WorldBudget budget;
+    budget.breaking.fragments = 3;
+    const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass")}), budget);
+    const auto events = stepUntilItBreaks(*world, 60);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].made.x, 0u);
+    step(*world, 60);
+    const auto bodies = presentBodies(*world);
+    ASSERT_EQ(bodies.size(), 1u);
+    EXPECT_NEAR(brittle::poseOf(bodies[0]).place[1], kBall, 0.02);
 }
 
 } // namespace

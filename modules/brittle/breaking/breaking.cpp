@@ -4,6 +4,7 @@
 #include "modules/brittle/breaking/adopt.h"
 #include "modules/brittle/breaking/break.h"
 #include "modules/brittle/fracture/collider_pools.h"
+#include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
 
@@ -28,6 +29,7 @@ static_assert(MOST_BREAKING == 1 << kOwnerBits);
 // From step to step, and copied with the world.
 struct Lasting {
     BufferView breakable, cards, surface_vertices;
+    BufferView told, ring; // of events
 };
 
 // Made anew in every step.
@@ -45,7 +47,8 @@ uint64_t tilesOf(uint64_t n) { return (n + RADIX_TILE - 1) / RADIX_TILE; }
 
 Lasting layOutLasting(engine::ScratchArena& arena, const WorldContents& c) {
     return {arena.take(c.breakable.size() * sizeof(gpu::BreakableBody)), arena.take(c.cards.size() * sizeof(gpu::MaterialCard)),
-            arena.take(c.surface_vertices.size() * sizeof(FragmentVertex))};
+            arena.take(c.surface_vertices.size() * sizeof(FragmentVertex)), arena.take(4),
+            arena.take(BREAK_EVENTS * sizeof(gpu::BreakEvent))};
 }
 
 Passing layOutPassing(engine::ScratchArena& arena, const Sizes& n) {
@@ -120,13 +123,30 @@ public:
         record.run("give_rooms", Length::counted(COUNT_FRAGMENTS), engine::NoPush{},
                    {record.counts(), p_.order, p_.sizes, p_.begins, p_.rooms, s.b.steps});
         recordPayment(record, s);
+        if (s.has(Effect::Events)) recordTelling(record, s);
         record.commands().endLabel();
         recordSwap(record, s);
         return record.status();
     }
 
+    Result<Told> tell(uint32_t& heard) override {
+        uint32_t told = 0;
+        const Fetch count[] = {{l_.told.sub(0, 4), &told, 4}};
+        if (auto read = fetch(device_, count); !read) return read.error();
+        const uint32_t fresh = told - heard, kept = std::min<uint32_t>(fresh, BREAK_EVENTS);
+        Told answer = {{}, fresh - kept};
+        heard = told;
+        if (kept == 0) return answer;
+        std::vector<gpu::BreakEvent> ring(BREAK_EVENTS);
+        const Fetch wanted[] = {{l_.ring, ring.data(), ring.size() * sizeof(gpu::BreakEvent)}};
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        for (uint32_t k = told - kept; k != told; k++)
+            answer.events.push_back(ring[k % BREAK_EVENTS]);
+        return answer;
+    }
+
     std::vector<BufferView> stateViews() const override {
-        return {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges};
+        return {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges, l_.told, l_.ring};
     }
     const std::vector<NamedBuffer>& buffers() const override { return named_; }
     BufferView surfaceVertices() const override { return l_.surface_vertices; }
@@ -154,6 +174,12 @@ private:
         record.run("pay_cracks", Length::counted(COUNT_BREAKING), push,
                    {record.counts(), p_.broken, p_.cracks, p_.lacking, p_.owner_start, s.b.bodies, s.b.shapes, l_.breakable,
                     l_.cards, s.b.steps, p_.ledger});
+    }
+
+    void recordTelling(Recorder& record, const Step& s) {
+        record.runGroups("tell_breaks", 1, engine::NoPush{},
+                         {record.counts(), p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told,
+                          l_.ring});
     }
 
     void recordSwap(Recorder& record, const Step& s) {
@@ -224,6 +250,8 @@ private:
         upload.add(std::span(contents.breakable), l_.breakable);
         upload.add(std::span(contents.cards), l_.cards);
         upload.add(std::span(contents.surface_vertices), l_.surface_vertices);
+        constexpr uint32_t kNothing[] = {0};
+        upload.add(std::span<const uint32_t>(kNothing), l_.told);
         upload.add(std::span<const gpu::PoolHeader>(pools->headers), pools_.headers);
         upload.add(std::span(pools->ranges), pools_.free_ranges);
         return upload.send(device_);

@@ -378,6 +378,7 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.drag = has(Effect::Drag);
     s.impact_fracture = has(Effect::ImpactFracture);
     s.refracture = has(Effect::Refracture);
+    s.events = has(Effect::Events);
     s.air_density = scene.air_density;
     s.drag_coefficient = scene.drag_coefficient;
     s.contact_hertz = scene.step.contact_hertz;
@@ -393,7 +394,7 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
 
 std::vector<std::string> effectsWithout(const SceneDescription& scene) {
     constexpr EffectSet kThere = {Effect::Gravity,  Effect::Contacts, Effect::Friction,       Effect::Restitution, Effect::Ccd,
-                                  Effect::Sleeping, Effect::Drag,     Effect::ImpactFracture, Effect::Refracture};
+                                  Effect::Sleeping, Effect::Drag,     Effect::ImpactFracture, Effect::Refracture, Effect::Events};
     std::vector<std::string> without;
     for (const std::string& name : scene.effects)
         if (const auto effect = effectOf(name); effect && !kThere.has(*effect)) without.push_back(name);

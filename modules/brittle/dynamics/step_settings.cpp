@@ -56,6 +56,7 @@ EffectSet effectsOf(const StepSettings& s) {
     addIf(s.contacts && s.sleeping, Effect::Sleeping);
     addIf(s.drag, Effect::Drag);
     addIf(s.contacts && s.impact_fracture, Effect::ImpactFracture);
+    addIf(s.events, Effect::Events);
     addIf(s.contacts && s.impact_fracture && s.refracture, Effect::Refracture);
     return set;
 }

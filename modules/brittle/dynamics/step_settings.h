@@ -35,6 +35,7 @@ struct StepSettings {
     double drag_coefficient = 0.47;
     bool impact_fracture = false; // bodies break where they are hit hard enough (breaking/breakable.h says which can)
     bool refracture = false;      // so do their fragments
+    bool events = false;          // the host is told what has broken (World::breaks)
     uint64_t breaking_seed = 1;
     double blow_time = 0.05; // s: for so long a blow does not break the fragments that it has made
 };

@@ -99,6 +99,17 @@ public:
         return c;
     }
 
+    Result<Breaks> breaks() override {
+        if (!breaking_ || !has(Effect::Events)) return Breaks();
+        auto told = breaking_->tell(heard_);
+        if (!told) return told.error();
+        for (gpu::BreakEvent& event : told->events) {
+            event.what.y = bodyAsAdded(event.what.y);
+            event.what.z = bodyAsAdded(event.what.z);
+        }
+        return Breaks{std::move(told->events), told->lost};
+    }
+
     Result<std::vector<std::array<uint32_t, 2>>> pairs() override {
         auto counted = counts();
         if (!counted) return counted.error();
@@ -324,6 +335,7 @@ private:
     uint64_t made_ = 0;
     std::unique_ptr<Breaking> breaking_; // where bodies break
     RoomToBreak to_break_;
+    uint32_t heard_ = 0; // of what broke
     uint32_t slots_ = 0; // of bodies, that have ever held one
 };
 

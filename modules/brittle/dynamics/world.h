@@ -52,6 +52,13 @@ public:
     // In the order in which they were added; behind them slots of fragments, some of which may be empty (BODY_ABSENT).
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;
     virtual engine::Result<WorldCounts> counts() = 0; // of the last step
+    // What has broken since it was last asked, in order, with the effect `events`; the device keeps the last 1024, and how many
+    // were lost is told. Bodies by their index as added, fragments by their slots.
+    struct Breaks {
+        std::vector<gpu::BreakEvent> events;
+        uint32_t lost = 0;
+    };
+    virtual engine::Result<Breaks> breaks() = 0;
     // Pieces whose boxes met in the last step, the lower one first, in order. None while all sleep.
     virtual engine::Result<std::vector<std::array<uint32_t, 2>>> pairs() = 0;
     // Of the last step, by stage, and how many dispatches it has.

@@ -1,0 +1,45 @@
+// What has broken in a step, or could not, goes into a ring that the host reads when it likes: the oldest are overwritten. One
+// workgroup.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "lib/quaternion.glsl"
+#include "shared/body.h"
+#include "shared/breaking.h"
+#include "shared/solver.h"
+#include "lib/sector.glsl"
+
+GROUP_KERNEL;
+READS(0, uint, counts);
+READS(1, BrokenBody, broken);
+READS(2, CrackLedger, ledger);
+READS(3, uint, owner_start);
+READS(4, BodyState, bodies);
+READS(5, BreakableBody, breakable);
+READS(6, uint, steps);
+UPDATES(7, uint, told); // how many so far
+WRITES(8, BreakEvent, ring);
+
+BreakEvent eventOf(uint k) {
+    BrokenBody hit = broken[k];
+    uint body = hit.ids.x;
+    bool broke = ledger[k].outcome.x != 0u;
+    vec3 offset = bodies[body].offset.xyz + hit.place.xyz;
+    ivec3 sectors = sectorsIn(offset);
+    BreakEvent event;
+    event.what = uvec4(steps[STEPS_MADE], body, hit.ids.y, breakable[body].surface.w);
+    event.made = uvec4(broke ? owner_start[k + 1u] - owner_start[k] : 0u, 0u, 0u, 0u);
+    event.sector = ivec4(bodies[body].sector.xyz + sectors, 0);
+    event.offset = vec4(offsetWithin(offset, sectors), 0.0);
+    event.along = hit.along;
+    event.blow = hit.blow;
+    event.energies = ledger[k].energies;
+    return event;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x, first = told[0], count = min(counts[COUNT_BREAKING], uint(MOST_BREAKING));
+    for (uint k = lane; k < count; k += GROUP_SIZE) ring[(first + k) % BREAK_EVENTS] = eventOf(k);
+    barrier();
+    if (lane == 0u) told[0] = first + count;
+}
