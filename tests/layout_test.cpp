@@ -83,7 +83,7 @@ const std::vector<Row>& rows() {
         {"BrokenBody",
          sizeof(gpu::BrokenBody),
          {MEMBER(BrokenBody, ids), MEMBER(BrokenBody, blow), MEMBER(BrokenBody, place), MEMBER(BrokenBody, other),
-          MEMBER(BrokenBody, along)}},
+          MEMBER(BrokenBody, along), MEMBER(BrokenBody, share)}},
         {"BodyShape", sizeof(gpu::BodyShape), {MEMBER(BodyShape, pieces), MEMBER(BodyShape, inverse_inertia)}},
         {"MaterialCard", sizeof(gpu::MaterialCard), {MEMBER(MaterialCard, elastic), MEMBER(MaterialCard, cracks)}},
         {"HullRecord",

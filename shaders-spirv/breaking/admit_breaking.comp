@@ -113,6 +113,12 @@ float unitOf(vec3 half_size) {
 
 ivec3 onGrid(vec3 place, vec4 center) { return ivec3(roundEven((place - center.xyz) * center.w * kGridHalf)) + ivec3(1 << 23); }
 
+// A quarter of all sites fall within the contact's radius (lib/draw_impact.glsl): so wide that cells there are no smaller than
+// the material's smallest.
+float leastRadiusFor(uint body, uint sites) {
+    return cards[breakable[body].surface.w].cracks.w * pow(float(sites) * 3.0 / (16.0 * 3.14159265), 1.0 / 3.0);
+}
+
 // Where the contact has grown to when it presses most (Hertz). Flat is what does not move: it is larger than what hits it.
 float contactRadiusOf(uint body, uint other, BlowRecord blow) {
     float curved = 1.0 / shapes[body].inverse_inertia[2].w + (bodies[other].offset.w != 0.0 ? 1.0 / shapes[other].inverse_inertia[2].w : 0.0);
@@ -121,13 +127,14 @@ float contactRadiusOf(uint body, uint other, BlowRecord blow) {
     return hertzRadiusOf(Blow(blow.blow.x, blow.blow.y, float(RIGID_IMPEDANCE)), 1.0 / curved, 1.0 / (1.0 / own + 1.0 / other_modulus));
 }
 
-void setRecord(uint k, uint body, uint other, vec3 arm, BlowRecord blow) {
+void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord blow) {
     BreakableBody b = breakable[body];
     vec4 center = vec4(0.5 * (b.low.xyz + b.high.xyz), unitOf(0.5 * (b.high.xyz - b.low.xyz)));
     vec3 own = turned(turnBack(bodies[body].turn), arm), place = turned(turnBack(b.turn), own) + b.balance.xyz;
     ivec3 low = onGrid(b.low.xyz, center), high = onGrid(b.high.xyz, center), at = clamp(onGrid(place, center), low, high);
     vec3 far = vec3(max(at - low, high - at));
-    float radius = contactRadiusOf(body, other, blow) * center.w * kGridHalf, furthest = ceil(length(far)) + 1.0;
+    float meters = max(contactRadiusOf(body, other, blow), leastRadiusFor(body, sites));
+    float radius = meters * center.w * kGridHalf, furthest = ceil(length(far)) + 1.0;
     breaking[k].center = center;
     breaking[k].range.xyz = b.surface.xyz;
     breaking[k].impact = ivec4(at, int(clamp(radius, 1.0, furthest)));
@@ -135,7 +142,7 @@ void setRecord(uint k, uint body, uint other, vec3 arm, BlowRecord blow) {
     breaking[k].high = ivec4(high, int(mixed(mixed(seed + body) + steps[STEPS_MADE])));
 }
 
-void setBroken(uint k, uint body) {
+void setBroken(uint k, uint body, uint sites) {
     uint pair = chosen[body];
     BlowRecord blow = blows[pair];
     bool is_b = memory[pair].ids.x != body;
@@ -144,10 +151,11 @@ void setBroken(uint k, uint body) {
     float joules = cards[breakable[body].surface.w].cracks.z * joulesOf(blow);
     broken[k].ids = uvec4(body, other, pair, is_b ? 1u : 0u);
     broken[k].blow = vec4(blow.blow.xy, joules, 0.0);
+    broken[k].share = vec4(joulesOf(blow), 0.0, 0.0, 0.0);
     broken[k].place = vec4(arm, blow.blow.w);
     broken[k].other = vec4(is_b ? blow.arm_a.xyz : blow.arm_b.xyz, 0.0);
     broken[k].along = vec4(is_b ? -normal : normal, 0.0);
-    setRecord(k, body, other, arm, blow);
+    setRecord(k, body, other, sites, arm, blow);
 }
 
 void main() {
@@ -159,6 +167,6 @@ void main() {
     if (lane == 0u) admit();
     barrier();
     for (uint k = lane; k < found; k += GROUP_SIZE) {
-        if (admitted[k] != NO_INDEX) setBroken(admitted[k], listed[k]);
+        if (admitted[k] != NO_INDEX) setBroken(admitted[k], listed[k], sites_of[k]);
     }
 }

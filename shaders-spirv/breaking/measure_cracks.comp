@@ -1,27 +1,37 @@
 // How much crack each object has got, a workgroup an object: half of the new faces of its fragments, since each cut has two
-// sides. Sums in the order of fragments, by lanes that are always as many.
+// sides. Sums in the order of fragments, by lanes that are always as many. What the blow cannot pay for does not break: cells of
+// a few sites may have more faces between them than the law of counts expects.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/sum.glsl"
 #include "shared/breaking.h"
 #include "shared/fragment_record.h"
+#include "shared/material.h"
 
 GROUP_KERNEL;
 READS(0, uint, counts);
 READS(1, BreakingRecord, breaking);
-READS(2, uint, owner_start);
-READS(3, uint, order);
-READS(4, FragmentRecord, fragments);
-WRITES(5, float, cracks); // m2
+READS(2, BrokenBody, broken);
+READS(3, BreakableBody, breakable);
+READS(4, MaterialCard, cards);
+READS(5, uint, owners); // sorted
+READS(6, uint, order);
+READS(7, FragmentRecord, fragments);
+WRITES(8, float, cracks); // m2; 0 for what stays whole
+WRITES(9, uint, owner_start);
+#define SORTED owners
+#define SORTED_COUNT COUNT_FRAGMENTS
+#include "lib/sorted_list.glsl"
 
 shared float sums[GROUP_SIZE];
+
+bool isAffordable(uint k, float area) { return cards[breakable[broken[k].ids.x].surface.w].cracks.y * area <= broken[k].share.x; }
 
 void main() {
     uint k = flatGroup(), lane = gl_LocalInvocationID.x;
     if (k >= counts[COUNT_BREAKING]) return;
-    bool any_ = counts[COUNT_FRAGMENTS] > 0u;
-    uint first = any_ ? owner_start[k] : 0u, last = any_ ? owner_start[k + 1u] : 0u;
+    uint first = firstFrom(k), last = firstFrom(k + 1u);
     vec4 sum = vec4(0.0), lost = vec4(0.0);
     for (uint r = first + lane; r < last; r += GROUP_SIZE) {
         vec4 measure = fragments[order[r]].measure;
@@ -32,6 +42,8 @@ void main() {
     if (lane != 0u) return;
     float total = 0.0;
     for (uint j = 0u; j < GROUP_SIZE; j++) total += sums[j];
-    float unit = 1.0 / breaking[k].center.w;
-    cracks[k] = 0.5 * total * unit * unit;
+    float unit = 1.0 / breaking[k].center.w, area = 0.5 * total * unit * unit;
+    cracks[k] = isAffordable(k, area) ? area : 0.0;
+    owner_start[k] = first;
+    if (k + 1u == counts[COUNT_BREAKING]) owner_start[k + 1u] = last;
 }

@@ -15,13 +15,12 @@ READS(0, uint, counts);
 UPDATES(1, BrokenBody, broken);
 READS(2, float, cracks);
 READS(3, uvec4, lacking);
-READS(4, uint, owner_start);
-UPDATES(5, BodyState, bodies);
-READS(6, BodyShape, shapes);
-UPDATES(7, BreakableBody, breakable);
-READS(8, MaterialCard, cards);
-READS(9, uint, steps);
-UPDATES(10, CrackLedger, ledger);
+UPDATES(4, BodyState, bodies);
+READS(5, BodyShape, shapes);
+UPDATES(6, BreakableBody, breakable);
+READS(7, MaterialCard, cards);
+READS(8, uint, steps);
+UPDATES(9, CrackLedger, ledger);
 layout(push_constant) uniform Push {
     float duration; // of a step
     float pause;    // s, in which what could not be broken is left alone
@@ -30,7 +29,7 @@ layout(push_constant) uniform Push {
 
 bool isServed(uint k) {
     bool made = counts[STATUS_FAILED] == 0u && counts[COUNT_FRAGMENTS] > 0u;
-    return made && lacking[k] == uvec4(0u) && owner_start[k + 1u] > owner_start[k] + 1u;
+    return made && lacking[k] == uvec4(0u) && cracks[k] > 0.0;
 }
 
 // The other object of the same pair, NO_INDEX where there is none.

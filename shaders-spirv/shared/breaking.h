@@ -49,6 +49,7 @@ struct BrokenBody {
     vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
     vec4 other; // the same place from the other's
     vec4 along; // normal, from the body to the other
+    vec4 share; // J, of the blow's energy that this body may spend, all of it
 };
 
 // What a blow has cost, in the order of BrokenBodies; with the first of two that break each other, for both.
@@ -87,7 +88,7 @@ struct BreakEvent {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 && sizeof(gpu::BlowRecord) == 64);
+static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 96 && sizeof(gpu::BlowRecord) == 64);
 static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 112);
 #endif
 #endif

@@ -13,7 +13,6 @@ constexpr float kPause = 0.25f;
 struct Hit {
     gpu::BrokenBody broken{};
     double cracks = 0;
-    uint32_t fragments = 5;
     bool refused = false;
 };
 
@@ -33,27 +32,23 @@ Paid pay(const Crash& crash) {
     std::vector<gpu::BrokenBody> hits;
     std::vector<float> areas;
     std::vector<Word4> lack;
-    std::vector<uint32_t> starts = {0};
     for (const Hit& hit : crash.hits) {
         hits.push_back(hit.broken);
         areas.push_back(static_cast<float>(hit.cracks));
         lack.push_back({0, 0, hit.refused ? 12u : 0u, 0});
-        starts.push_back(starts.back() + hit.fragments);
     }
     Counts counts;
     counts[COUNT_BREAKING] = count;
-    counts[COUNT_FRAGMENTS] = starts.back();
+    counts[COUNT_FRAGMENTS] = 5;
     const engine::Buffer broken = bufferOf(hits), cracks = bufferOf(areas), lacking = bufferOf(lack),
-                         owner_start = bufferOf(starts), bodies = bufferOf(statesOf(crash.bodies)),
-                         shapes = bufferOf(shapesOf(crash.bodies)),
+                         bodies = bufferOf(statesOf(crash.bodies)), shapes = bufferOf(shapesOf(crash.bodies)),
                          breakable = bufferOf(std::vector<gpu::BreakableBody>(crash.bodies.size())),
                          cards = bufferOf(std::vector{brittle::cardOf(*brittle::findMaterial("glass"))}),
                          steps = bufferOf(std::vector<uint32_t>{60, 0, 0, 0}), ledger = blankBuffer<gpu::CrackLedger>(count);
     const float push[] = {1.0f / 60, kPause};
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(
-            kernel("pay_cracks"), count, push,
-            {counts.words, broken, cracks, lacking, owner_start, bodies, shapes, breakable, cards, steps, ledger});
+        commands.dispatch(kernel("pay_cracks"), count, push,
+                          {counts.words, broken, cracks, lacking, bodies, shapes, breakable, cards, steps, ledger});
     });
     return {valuesOf<gpu::BodyState>(bodies, crash.bodies.size()), valuesOf<gpu::BreakableBody>(breakable, crash.bodies.size()),
             valuesOf<gpu::CrackLedger>(ledger, count)};
@@ -170,7 +165,7 @@ TEST(Cracks, OfWhatStaysWholeCostNothingAndItIsLeftAloneForAWhile) {
         Crash crash = randomCrash(chance, true);
         crash.hits[0].cracks = 0.05;
         crash.hits[0].refused = refused;
-        crash.hits[0].fragments = refused ? 5 : 1;
+        if (!refused) crash.hits[0].cracks = 0;
         const Paid paid = pay(crash);
         EXPECT_EQ(paid.ledger[0].outcome.x, 0u);
         for (size_t b = 0; b < 2; ++b)

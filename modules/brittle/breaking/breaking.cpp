@@ -163,23 +163,24 @@ private:
         record.run("key_fragments", all, engine::NoPush{}, {record.counts(), fragments, event_.b.sites, p_.owners, p_.order});
         record.sort(COUNT_FRAGMENTS, kOwnerBits, {p_.owners, p_.other_owners}, {p_.order, p_.other_order},
                     {p_.histogram, p_.digit_offsets, p_.sums});
-        record.run("ask_rooms", all, engine::NoPush{},
-                   {record.counts(), p_.owners, p_.order, fragments, colliders_->views().records, p_.sizes, p_.owner_start});
         record.runGroups("measure_cracks", record.groupsOf(COUNT_BREAKING), engine::NoPush{},
-                         {record.counts(), p_.breaking, p_.owner_start, p_.order, fragments, p_.cracks});
+                         {record.counts(), p_.breaking, p_.broken, l_.breakable, l_.cards, p_.owners, p_.order, fragments,
+                          p_.cracks, p_.owner_start});
+        record.run("ask_rooms", all, engine::NoPush{},
+                   {record.counts(), p_.owners, p_.order, fragments, colliders_->views().records, p_.cracks, p_.sizes});
     }
 
     void recordPayment(Recorder& record, const Step& s) {
         const float push[] = {static_cast<float>(s.settings.dt), kPause};
         record.run("pay_cracks", Length::counted(COUNT_BREAKING), push,
-                   {record.counts(), p_.broken, p_.cracks, p_.lacking, p_.owner_start, s.b.bodies, s.b.shapes, l_.breakable,
-                    l_.cards, s.b.steps, p_.ledger});
+                   {record.counts(), p_.broken, p_.cracks, p_.lacking, s.b.bodies, s.b.shapes, l_.breakable, l_.cards,
+                    s.b.steps, p_.ledger});
     }
 
     void recordTelling(Recorder& record, const Step& s) {
-        record.runGroups("tell_breaks", 1, engine::NoPush{},
-                         {record.counts(), p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told,
-                          l_.ring});
+        record.runGroups(
+            "tell_breaks", 1, engine::NoPush{},
+            {record.counts(), p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told, l_.ring});
     }
 
     void recordSwap(Recorder& record, const Step& s) {
