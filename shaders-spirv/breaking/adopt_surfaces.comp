@@ -62,6 +62,6 @@ void main() {
     highs[lane] = high;
     joinBounds(lane);
     if (lane != 0u) return;
-    breakable[room[ROOM_BODY]].low = vec4(lows[0], 0.0);
+    breakable[room[ROOM_BODY]].low.xyz = lows[0];
     breakable[room[ROOM_BODY]].high = vec4(highs[0], 0.0);
 }

@@ -7,6 +7,7 @@
 #include "shared/breaking.h"
 #include "shared/hull.h"
 #include "shared/pool.h"
+#include "shared/solver.h"
 
 FLAT_KERNEL;
 READS(0, uint, counts);
@@ -18,6 +19,7 @@ UPDATES(5, BodyState, bodies);
 UPDATES(6, BreakableBody, breakable);
 UPDATES(7, PieceRecord, pieces);
 WRITES(8, PoolShare, returned);
+UPDATES(9, uint, steps);
 #include "lib/face_room.glsl"
 
 // Hulls of a body follow each other.
@@ -50,4 +52,5 @@ void main() {
     if (!leaves) return;
     returned[k] = shareOf(broken[k].ids.x);
     retire(broken[k].ids.x);
+    atomicAdd(steps[STEPS_BROKEN], 1u);
 }

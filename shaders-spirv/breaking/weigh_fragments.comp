@@ -22,7 +22,7 @@ READS(5, BreakingRecord, breaking);
 READS(6, BrokenBody, broken);
 READS(7, uvec4, rooms);
 READS(8, MaterialCard, cards);
-READS(9, uint, steps);
+UPDATES(9, uint, steps);
 WRITES(10, uint, adopted); // by object
 UPDATES(11, BodyState, bodies);
 UPDATES(12, BodyShape, shapes);
@@ -100,7 +100,9 @@ void setBreakable(uint slot, uint f, Weighed w, uint parent, float unit) {
     float until = float(steps[STEPS_MADE]) * duration + hold;
     breakable[slot].surface = uvec4(3u * triangles, material);
     breakable[slot].form = vec4(w.volume, r.measure.y * unit * unit, strengthFor(f, parent, w, material), until);
-    breakable[slot].balance = vec4(w.balance, 0.0);
+    bool again = breakable[parent].balance.w > 0.0;
+    breakable[slot].low.w = again ? breakable[parent].low.w : float(parent);
+    breakable[slot].balance = vec4(w.balance, float(steps[STEPS_MADE]));
     breakable[slot].turn = turnBack(w.axes);
 }
 
@@ -118,4 +120,5 @@ void main() {
     bodies[slot] = stateOf(w, body, whole, breaking[object].center.xyz);
     setInertia(slot, w, shapes[parent]);
     setBreakable(slot, f, w, parent, unit);
+    atomicAdd(steps[STEPS_FRAGMENTS], 1u);
 }

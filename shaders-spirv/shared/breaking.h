@@ -24,9 +24,9 @@ struct BreakingRecord {
 struct BreakableBody {
     uvec4 surface; // first vertex in the pool, corners of its own surface, of earlier cuts; material, NO_INDEX for what does not break
     vec4 form;     // volume, all of its surface, strength; w: s, of the world's time until which no blow breaks it
-    vec4 low;      // of its surface, frame of its vertices
+    vec4 low;      // of its surface, frame of its vertices; w: of a fragment the slot of the first body that it was a part of
     vec4 high;
-    vec4 balance;  // center of mass, frame of its vertices
+    vec4 balance;  // center of mass, frame of its vertices; w: the step that it was made in, counted from 1, 0 for what has always been
     vec4 turn;     // from the frame of its vertices to its own axes
 };
 

@@ -41,7 +41,9 @@ GPU_NAMESPACE_BEGIN
 #define STEPS_ASLEEP 1 /* in a row, in which nothing was awake, up to IDLE_STEPS */
 #define STEPS_BODIES 2 /* slots of bodies that have ever held one: the first so many */
 #define STEPS_PIECES 3
-#define STEPS_WORDS 4
+#define STEPS_BROKEN 4    /* bodies that have become fragments */
+#define STEPS_FRAGMENTS 5 /* that have been made */
+#define STEPS_WORDS 6
 #define IDLE_STEPS 2
 
 // The first colors hold most contacts and are dispatched each; the others are walked through by one workgroup. What has no

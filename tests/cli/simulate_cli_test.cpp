@@ -50,6 +50,15 @@ protected:
                                              "[[collider]]\nname = \"ground\"\n";
         return path("small.toml");
     }
+    // A ball of glass, 20 cm above the ground.
+    std::string thrownBall(bool breaks) const {
+        std::ofstream(path("ball.toml")) << "name = \"ball\"\neffects = [\"gravity\", \"contacts\", \"friction\""
+                                         << (breaks ? ", \"impact_fracture\"" : "")
+                                         << "]\n[camera]\nwidth = 160\nheight = 90\neye = [0.5, 0.5, 1]\ntarget = [0, 0.1, 0]\n"
+                                            "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius = 0.1\nplace = [0, 0.3, 0]\n"
+                                            "velocity = [0, -6, 0]\nmaterial = \"glass\"\n[[collider]]\nname = \"ground\"\n";
+        return path("ball.toml");
+    }
     // A program that is found as ffmpeg.
     std::string fakeFfmpeg(const std::string& script) const {
         std::filesystem::create_directories(folder() / "bin");
@@ -145,6 +154,55 @@ TEST_F(SimulateCli, FramesBetweenStepsLieBetweenTheirStates) {
         EXPECT_NEAR(frames.body("box").places[k][1], (1 - share) * a[1] + share * b[1], 1e-6) << k;
     }
     EXPECT_EQ(frames.body("box").places.back(), steps.body("box").places.back());
+}
+
+TEST_F(SimulateCli, ABallThatBreaksGivesWayToItsFragments) {
+    const Outcome run = simulate({thrownBall(true), "-o", path("a.glb"), "--seconds", "0.1", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    const size_t fragments = report["fragments"];
+    EXPECT_GT(fragments, 2u);
+    EXPECT_EQ(report["bodies"], 1);
+    EXPECT_EQ(report["broken"], 1);
+    EXPECT_EQ(report["bodies_at_end"], fragments);
+    EXPECT_EQ(report["colliders"], 1);
+    const reference::MotionFile file = reference::readMotionFile(path("a.glb"));
+    EXPECT_TRUE(file.faults.empty()) << file.faults.front();
+    ASSERT_EQ(file.bodies.size(), 2 + fragments);
+    EXPECT_EQ(file.meshes, 2 + fragments);
+    const reference::MovingBody& ball = file.body("ball");
+    const size_t breaks = ball.timesSeen();
+    EXPECT_GT(breaks, 0u);
+    EXPECT_EQ(ball.firstSeen(), 0u);
+    const double volume = reference::volumeOf(ball.outer);
+    double sum = 0;
+    for (size_t k = 0; k < fragments; ++k) {
+        const reference::MovingBody& fragment = file.body("ball/" + std::to_string(k));
+        EXPECT_EQ(fragment.firstSeen(), breaks);
+        EXPECT_EQ(fragment.timesSeen(), file.times.size() - breaks);
+        EXPECT_FALSE(fragment.inner.empty());
+        reference::Triangles all = fragment.outer;
+        all.insert(all.end(), fragment.inner.begin(), fragment.inner.end());
+        sum += reference::volumeOf(all);
+    }
+    EXPECT_NEAR(sum, volume, 1e-4 * volume);
+}
+
+TEST_F(SimulateCli, PicturesShowWhatIsLeftOfABall) {
+    ASSERT_EQ(simulate({thrownBall(true), "-o", path("broken.png"), "--seconds", "0.1"}).exit_code, 0);
+    ASSERT_EQ(simulate({thrownBall(false), "-o", path("whole.png"), "--seconds", "0.1"}).exit_code, 0);
+    EXPECT_FALSE(fileBytes(path("broken.png")) == fileBytes(path("whole.png")));
+    ASSERT_EQ(simulate({thrownBall(true), "-o", path("all_%d.png"), "--seconds", "0.1", "--fps", "20"}).exit_code, 0);
+    EXPECT_TRUE(fileBytes(path("all_2.png")) == fileBytes(path("broken.png"))); // however the bodies came to be there
+}
+
+TEST_F(SimulateCli, WhereNothingBreaksFilesAreAsWithoutTheEffect) {
+    for (const char* ending : {"glb", "png"}) {
+        const std::string with = path(std::string("with.") + ending), without = path(std::string("without.") + ending);
+        ASSERT_EQ(simulate({thrownBall(true), "-o", with, "--seconds", "0.01"}).exit_code, 0);
+        ASSERT_EQ(simulate({thrownBall(false), "-o", without, "--seconds", "0.01"}).exit_code, 0);
+        EXPECT_TRUE(fileBytes(with) == fileBytes(without)) << ending;
+    }
 }
 
 TEST_F(SimulateCli, TheSameFileTwice) {

@@ -102,6 +102,8 @@ void expectForm(const Scene& scene, const World& world, const Part& part) {
     const gpu::BodyState& state = world.bodies[part.room.x];
     EXPECT_NEAR(body.form.x, f.volume, 1e-6 * f.volume);
     EXPECT_EQ(body.form.w, adopting::kHold);
+    EXPECT_EQ(body.balance.w, adopting::kSteps);
+    EXPECT_EQ(body.low.w, part.object);
     EXPECT_LE((vec(body.balance) - vec(f.centroid)).norm(), 1e-7 * vec(f.centroid).norm());
     // A place of the surface in the world, by the whole and by the fragment.
     const Vector3d corner = vec(positionOf(o.result.fragments.vertices[f.first_vertex]));

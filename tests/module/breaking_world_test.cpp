@@ -127,6 +127,60 @@ TEST(BreakingWorld, ABallOfGlassThatFallsFromHighUpBreaks) {
     EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-6 * mass);
 }
 
+// Signed volumes of the tetrahedra between its triangles and its center of mass.
+double volumeOf(const brittle::SurfaceMesh& surface) {
+    double volume = 0;
+    for (size_t t = 0; t + 2 < surface.indices.size(); t += 3) {
+        const auto corner = [&](size_t k) { return brittle::positionOf(surface.vertices[surface.indices[t + k]]); };
+        volume += brittle::dot(corner(0), brittle::cross(corner(1), corner(2))) / 6;
+    }
+    return volume;
+}
+
+double outerAreaOf(const brittle::SurfaceMesh& surface) {
+    double area = 0;
+    for (size_t t = 0; t + 2 < surface.outer_index_count; t += 3) {
+        const auto corner = [&](size_t k) { return brittle::positionOf(surface.vertices[surface.indices[t + k]]); };
+        area += brittle::length(
+                    brittle::cross(brittle::operator-(corner(1), corner(0)), brittle::operator-(corner(2), corner(0)))) /
+                2;
+    }
+    return area;
+}
+
+TEST(BreakingWorld, FragmentsTellWhatTheyLookLike) {
+    brittle::BodyDescription thrown = ball({0, 0.2, 0}, "glass");
+    thrown.velocity = {0, -9, 0};
+    brittle::WorldSurfaces surfaces;
+    const SceneDescription scene = sceneOf({ball({5, kBall, 0}, "glass"), thrown});
+    ASSERT_TRUE(brittle::contentsOf(scene, {}, nullptr, &surfaces));
+    const auto world = worldOf(scene);
+    EXPECT_TRUE(world->fragments()->empty());
+    uint32_t steps = 0;
+    for (; steps < 10 && world->fragments()->empty(); ++steps)
+        ASSERT_TRUE(world->step());
+    const auto fragments = world->fragments();
+    const auto looks = world->surfacesOf(*fragments);
+    const auto states = world->bodies();
+    const auto counts = world->counts();
+    ASSERT_TRUE(looks && states && counts);
+    EXPECT_EQ(counts->broken, 1u);
+    EXPECT_EQ(counts->fragments, fragments->size());
+    EXPECT_EQ(fragments->size() + 1, presentBodies(*world).size());
+    double volume = 0, area = 0;
+    for (size_t k = 0; k < fragments->size(); ++k) {
+        const brittle::BodyFragment& fragment = (*fragments)[k];
+        EXPECT_EQ(fragment.step, steps);
+        EXPECT_EQ(fragment.origin, 1u);
+        EXPECT_NEAR(volumeOf((*looks)[k]) * 2500 * (*states)[fragment.slot].offset.w, 1, 0.02) << k; // kg of glass
+        volume += volumeOf((*looks)[k]);
+        area += outerAreaOf((*looks)[k]);
+    }
+    const brittle::SurfaceMesh& whole = surfaces.meshes[surfaces.bodies[1].mesh];
+    EXPECT_NEAR(volume, volumeOf(whole), 1e-5 * volume);
+    EXPECT_NEAR(area, outerAreaOf(whole), 1e-4 * area);
+}
+
 TEST(BreakingWorld, ABallThatIsSetDownDoesNotBreak) {
     const auto world = worldOf(sceneOf({ball({0, kBall + 0.001, 0}, "glass")}));
     step(*world, 30);

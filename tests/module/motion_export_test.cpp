@@ -54,8 +54,8 @@ Staged staged(const SceneDescription& scene) {
     return made;
 }
 
-std::vector<Pose> posesOf(const WorldContents& contents) {
-    std::vector<Pose> poses;
+Poses posesOf(const WorldContents& contents) {
+    Poses poses;
     for (const gpu::BodyState& body : contents.bodies)
         poses.push_back(poseOf(body));
     return poses;
@@ -131,12 +131,12 @@ SceneDescription tiltedRing(uint32_t sites, bool broken) {
 TEST_F(MotionExport, ReadsBackAsTheBodiesAndTheirMotion) {
     const SceneDescription scene = fewBodies();
     const Staged s = staged(scene);
-    std::vector<Pose> poses = posesOf(s.contents);
+    Poses poses = posesOf(s.contents);
     MotionGlb motion(s.surfaces, scene.camera, {0, 0, 0});
     ASSERT_TRUE(motion.add(0, poses));
-    poses[0] = {{-3, 1, 0.5}, aboutY(0.5)};
+    poses[0] = Pose{{-3, 1, 0.5}, aboutY(0.5)};
     ASSERT_TRUE(motion.add(0.25, poses));
-    poses[0] = {{-3, 1, 0.75}, aboutY(1)};
+    poses[0] = Pose{{-3, 1, 0.75}, aboutY(1)};
     ASSERT_TRUE(motion.add(1, poses));
     const reference::MotionFile file = read(motion);
     EXPECT_TRUE(file.faults.empty()) << file.faults.front();
@@ -152,15 +152,44 @@ TEST_F(MotionExport, ReadsBackAsTheBodiesAndTheirMotion) {
 TEST_F(MotionExport, WhatStandsStillHasNoPartInTheAnimation) {
     const SceneDescription scene = fewBodies();
     const Staged s = staged(scene);
-    std::vector<Pose> poses = posesOf(s.contents);
+    Poses poses = posesOf(s.contents);
     MotionGlb motion(s.surfaces, scene.camera, {0, 0, 0});
     ASSERT_TRUE(motion.add(0, poses));
-    poses[0].place[1] = 3;
+    poses[0]->place[1] = 3;
     ASSERT_TRUE(motion.add(1, poses));
     const reference::MotionFile file = read(motion);
     for (const reference::MovingBody& body : file.bodies)
         EXPECT_EQ(body.moves, body.name == "left") << body.name;
     EXPECT_EQ(readBeginning(scene).times.size(), 1u); // and nothing is animated at all
+}
+
+// "left" breaks into one fragment after the first moment; that one breaks in its turn.
+TEST_F(MotionExport, WhatIsNotThereAllTheTimeHasAScaleOfZeroElsewhere) {
+    const SceneDescription scene = fewBodies();
+    Staged s = staged(scene);
+    Poses poses = posesOf(s.contents);
+    MotionGlb motion(s.surfaces, scene.camera, {0, 0, 0});
+    ASSERT_TRUE(motion.add(0, poses));
+    for (const char* name : {"left/0", "left/1", "left/2"})
+        s.surfaces.bodies.push_back({0, name, true, false, 0});
+    poses.resize(s.surfaces.bodies.size());
+    poses[0].reset();
+    poses[4] = Pose{{-3, 1, 0}, aboutY(3)};
+    ASSERT_TRUE(motion.add(0.5, poses));
+    poses[4]->place[1] = 0;
+    ASSERT_TRUE(motion.add(1, poses));
+    std::swap(poses[4], poses[5]);
+    ASSERT_TRUE(motion.add(2, poses));
+    const reference::MotionFile file = read(motion);
+    EXPECT_TRUE(file.faults.empty()) << file.faults.front();
+    EXPECT_EQ(file.times, (std::vector<double>{0, 0.5, 1, 2}));
+    EXPECT_EQ(file.body("left").there, (std::vector<bool>{true, false, false, false}));
+    EXPECT_EQ(file.body("right").there, (std::vector<bool>{true, true, true, true}));
+    EXPECT_EQ(file.body("left/0").there, (std::vector<bool>{false, true, true, false}));
+    EXPECT_EQ(file.body("left/1").there, (std::vector<bool>{false, false, false, true}));
+    EXPECT_EQ(file.body("left/0").places[1], (reference::Point{-3, 1, 0}));
+    EXPECT_EQ(file.body("left/0").places[2], (reference::Point{-3, 0, 0}));
+    EXPECT_EQ(file.bodies.size(), 6u); // what is never seen is not in it
 }
 
 TEST_F(MotionExport, EqualShapesShareAMesh) {
@@ -174,12 +203,12 @@ TEST_F(MotionExport, EqualShapesShareAMesh) {
 TEST_F(MotionExport, TurnsTakeTheShortWayWhateverTheirSigns) {
     const SceneDescription scene = fewBodies();
     const Staged s = staged(scene);
-    std::vector<Pose> poses = posesOf(s.contents);
+    Poses poses = posesOf(s.contents);
     MotionGlb motion(s.surfaces, scene.camera, {0, 0, 0});
     for (int k = 0; k < 40; ++k) {
-        poses[1].turn = aboutY(0.3 * k);
+        poses[1]->turn = aboutY(0.3 * k);
         if (k % 3 == 0)
-            for (double& x : poses[1].turn)
+            for (double& x : poses[1]->turn)
                 x = -x;
         ASSERT_TRUE(motion.add(0.1 * k, poses));
     }
@@ -303,7 +332,7 @@ TEST(SceneContents, FragmentsOfCurvedModelsAreBodies) {
 TEST(SceneContents, TellsWhatItLeavesOut) {
     SceneDescription scene = fewBodies();
     scene.effects = {"gravity", "dust", "contacts", "impact_fracture"};
-    EXPECT_EQ(effectsWithout(scene), (std::vector<std::string>{"dust", "impact_fracture"}));
+    EXPECT_EQ(effectsWithout(scene), (std::vector<std::string>{"dust"}));
 }
 
 TEST(Pose, BetweenTwoLiesEvenlyOnTheShorterWay) {
@@ -316,4 +345,13 @@ TEST(Pose, BetweenTwoLiesEvenlyOnTheShorterWay) {
     const reference::Point ahead = reference::turnedBy(middle.turn, {0, 0, 1});
     EXPECT_NEAR(ahead[0], std::sin(std::numbers::pi / 8), 1e-12);
     EXPECT_NEAR(ahead[2], std::cos(std::numbers::pi / 8), 1e-12);
+}
+
+TEST(Pose, BetweenTwoMomentsAreTheBodiesOfTheFirst) {
+    const Pose low = {{0, 0, 0}, aboutY(0)}, high = {{0, 2, 0}, aboutY(0)};
+    const Poses poses = between({low, low, std::nullopt}, {high, std::nullopt, high, high}, 0.5);
+    ASSERT_EQ(poses.size(), 3u);
+    EXPECT_EQ(poses[0]->place, (Double3{0, 1, 0}));
+    EXPECT_EQ(poses[1]->place, low.place);
+    EXPECT_FALSE(poses[2]);
 }

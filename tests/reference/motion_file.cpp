@@ -32,7 +32,13 @@ private:
     void readPrimitive(const Json& primitive, MovingBody& body);
     void readTimes(const Json& animation);
     void readChannel(const Json& animation, const Json& channel);
-    void checkTimes(const Json& accessor);
+    void checkTimes(const std::vector<double>& times, const Json& accessor);
+    struct Keys {
+        std::vector<double> times, values;
+    };
+    std::vector<size_t> keysAt(const std::vector<double>& times) const;
+    void readMotion(const Keys& keys, bool is_turn, MovingBody& body);
+    void readScales(const Keys& keys, MovingBody& body);
     void checkTurns(const MovingBody& body);
 
     GlbChunks glb_;
@@ -87,6 +93,7 @@ void Reader::readBody(size_t index, const Json& node) {
     body.mesh = node["mesh"].get<size_t>();
     body.places.assign(file_.times.size(), pointOf(node.at("translation")));
     body.turns.assign(file_.times.size(), quaternionOf(node.at("rotation")));
+    body.there.assign(file_.times.size(), !node.contains("scale") || pointOf(node["scale"])[0] != 0);
     for (const Json& primitive : glb_.json.at("meshes").at(body.mesh).at("primitives"))
         readPrimitive(primitive, body);
 }
@@ -108,40 +115,73 @@ void Reader::readPrimitive(const Json& primitive, MovingBody& body) {
 }
 
 void Reader::readTimes(const Json& animation) {
-    const Json& input = animation.at("samplers").at(0).at("input");
-    file_.times = readAccessor(glb_, input);
-    checkTimes(glb_.json["accessors"][input.get<size_t>()]);
-    for (const Json& sampler : animation["samplers"]) {
-        if (sampler.at("input") != input) fault("animation", "has more than one list of times");
-        if (sampler.value("interpolation", "LINEAR") != "LINEAR") fault("animation", "is not linear");
+    std::set<double> all;
+    std::set<size_t> inputs;
+    for (const Json& sampler : animation.at("samplers"))
+        inputs.insert(sampler.at("input").get<size_t>());
+    for (const size_t input : inputs) {
+        const std::vector<double> times = readAccessor(glb_, input);
+        checkTimes(times, glb_.json["accessors"][input]);
+        all.insert(times.begin(), times.end());
     }
+    file_.times.assign(all.begin(), all.end());
 }
 
-void Reader::checkTimes(const Json& accessor) {
-    for (size_t k = 1; k < file_.times.size(); ++k)
-        if (!(file_.times[k] > file_.times[k - 1])) fault("times", "do not increase");
-    if (file_.times.front() < 0) fault("times", "begin before 0");
-    if (accessor.at("min") != Json::array({file_.times.front()}) || accessor.at("max") != Json::array({file_.times.back()}))
+void Reader::checkTimes(const std::vector<double>& times, const Json& accessor) {
+    for (size_t k = 1; k < times.size(); ++k)
+        if (!(times[k] > times[k - 1])) fault("times", "do not increase");
+    if (times.front() < 0) fault("times", "begin before 0");
+    if (accessor.at("min") != Json::array({times.front()}) || accessor.at("max") != Json::array({times.back()}))
         fault("times", "min and max are not theirs");
+}
+
+// The key that holds at each of the file's times: the last one, or the first where there is none yet.
+std::vector<size_t> Reader::keysAt(const std::vector<double>& times) const {
+    std::vector<size_t> keys;
+    for (const double time : file_.times) {
+        const auto later = std::ranges::upper_bound(times, time);
+        keys.push_back(later == times.begin() ? 0 : static_cast<size_t>(later - times.begin()) - 1);
+    }
+    return keys;
 }
 
 void Reader::readChannel(const Json& animation, const Json& channel) {
     const int index = body_of_node_.at(channel.at("target").at("node").get<size_t>());
     requireGlb(index >= 0, "a channel moves what is no body");
     MovingBody& body = file_.bodies[static_cast<size_t>(index)];
-    body.moves = true;
     const Json& sampler = animation.at("samplers").at(channel.at("sampler").get<size_t>());
-    const std::vector<double> keys = readAccessor(glb_, sampler.at("output"));
-    const bool is_turn = channel["target"].at("path") == "rotation";
-    requireGlb(keys.size() == file_.times.size() * (is_turn ? 4u : 3u), "another number of keys than of times");
+    const Keys keys = {readAccessor(glb_, sampler.at("input")), readAccessor(glb_, sampler.at("output"))};
+    const std::string path = channel["target"].at("path");
+    if (sampler.value("interpolation", "LINEAR") != (path == "scale" ? "STEP" : "LINEAR"))
+        fault(body.name, "has keys of " + path + " that are to be read otherwise");
+    requireGlb(keys.values.size() == keys.times.size() * (path == "rotation" ? 4u : 3u),
+               "another number of keys than of times");
+    if (path == "scale") return readScales(keys, body);
+    body.moves = true;
+    readMotion(keys, path == "rotation", body);
+}
+
+void Reader::readMotion(const Keys& keys, bool is_turn, MovingBody& body) {
+    const std::vector<size_t> at = keysAt(keys.times);
     const Point place = body.places[0];
     const Quaternion turn = body.turns[0];
     for (size_t k = 0; k < file_.times.size(); ++k)
         if (is_turn)
-            body.turns[k] = {keys[4 * k], keys[4 * k + 1], keys[4 * k + 2], keys[4 * k + 3]};
+            std::copy_n(&keys.values[4 * at[k]], 4, body.turns[k].begin());
         else
-            body.places[k] = row(keys, k);
+            body.places[k] = row(keys.values, at[k]);
     if (body.places[0] != place || body.turns[0] != turn) fault(body.name, "its node stands elsewhere than its first key");
+}
+
+void Reader::readScales(const Keys& keys, MovingBody& body) {
+    const bool was_there = body.there[0];
+    const std::vector<size_t> at = keysAt(keys.times);
+    for (size_t k = 0; k < file_.times.size(); ++k) {
+        const Point scale = row(keys.values, at[k]);
+        if (scale != Point{0, 0, 0} && scale != Point{1, 1, 1}) fault(body.name, "has a scale that is neither 0 nor 1");
+        body.there[k] = scale[0] != 0;
+    }
+    if (body.there[0] != was_there) fault(body.name, "its node is as large as at another time");
 }
 
 void Reader::checkTurns(const MovingBody& body) {
@@ -155,6 +195,10 @@ void Reader::checkTurns(const MovingBody& body) {
 }
 
 } // namespace
+
+size_t MovingBody::firstSeen() const { return static_cast<size_t>(std::ranges::find(there, true) - there.begin()); }
+
+size_t MovingBody::timesSeen() const { return static_cast<size_t>(std::ranges::count(there, true)); }
 
 const MovingBody& MotionFile::body(const std::string& name) const {
     for (const MovingBody& body : bodies)

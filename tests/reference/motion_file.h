@@ -18,11 +18,15 @@ struct MovingBody {
     bool moves = false;            // has a part in the animation; else all of its keys are its node's
     std::vector<Point> places;     // of its frame, one for each time
     std::vector<Quaternion> turns;
+    std::vector<bool> there; // likewise; false where it has a scale of 0
+
+    size_t firstSeen() const; // of the times; as many as there are where it never is
+    size_t timesSeen() const;
 };
 
 struct MotionFile {
     Point origin = {0, 0, 0};  // what places count from
-    std::vector<double> times; // one, 0, where nothing is animated
+    std::vector<double> times; // of all keys; one, 0, where nothing is animated
     std::vector<MovingBody> bodies;
     Point eye = {0, 0, 0}; // of the camera, from the origin
     Quaternion view = {0, 0, 0, 1};

@@ -15,7 +15,6 @@ namespace cli {
 namespace {
 
 using brittle::OutputFile;
-using brittle::Pose;
 using engine::Result;
 
 class GlbOutput : public MotionOutput {
@@ -26,7 +25,7 @@ public:
         motion_.emplace(s.surfaces, s.scene.camera, s.origin);
         return {};
     }
-    Result<void> add(double time, std::span<const Pose> poses) override { return motion_->add(time, poses); }
+    Result<void> add(double time, const brittle::Poses& poses) override { return motion_->add(time, poses); }
     Result<void> finish() override {
         const auto bytes = motion_->encode();
         if (!bytes) return bytes.error();
@@ -46,7 +45,7 @@ public:
     explicit PictureOutput(OutputFile file) : file_(std::move(file)) {}
     Result<std::vector<double>> times(double seconds) const override { return std::vector{seconds}; }
     Result<void> begin(const Spectacle& s) override { return open(s, world_); }
-    Result<void> add(double, std::span<const Pose> poses) override {
+    Result<void> add(double, const brittle::Poses& poses) override {
         const auto picture = world_->draw(poses);
         if (!picture) return picture.error();
         return engine::writePng(*picture, file_.temporaryPath().string());
@@ -71,7 +70,7 @@ public:
     PicturesOutput(NumberedName name, double fps) : name_(std::move(name)), fps_(fps) {}
     Result<std::vector<double>> times(double seconds) const override { return frameTimes(seconds, fps_); }
     Result<void> begin(const Spectacle& s) override { return PictureOutput::open(s, world_); }
-    Result<void> add(double, std::span<const Pose> poses) override {
+    Result<void> add(double, const brittle::Poses& poses) override {
         auto file = createOutput(name_.of(files_.size()));
         if (!file) return file.error();
         files_.push_back(std::move(*file));
@@ -104,7 +103,7 @@ public:
         film_ = std::move(*film);
         return {};
     }
-    Result<void> add(double, std::span<const Pose> poses) override {
+    Result<void> add(double, const brittle::Poses& poses) override {
         const auto picture = world_->draw(poses);
         if (!picture) return picture.error();
         return film_->add(*picture);

@@ -7,7 +7,6 @@
 #include "modules/brittle/scene/scene_description.h"
 
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,8 @@ constexpr double kMostSeconds = 1e6, kLeastFps = 0.001, kMostFps = 1000;
 struct Spectacle {
     engine::Device& device;
     const brittle::SceneDescription& scene;
-    const brittle::WorldSurfaces& surfaces;
-    brittle::Double3 origin; // what floats are counted from
+    const brittle::WorldSurfaces& surfaces; // more of them as fragments appear
+    brittle::Double3 origin;                // what floats are counted from
 };
 
 class MotionOutput {
@@ -37,7 +36,7 @@ public:
     virtual engine::Result<std::vector<double>> times(double seconds) const = 0;
     // In this order: once, for each of these times, once, once.
     virtual engine::Result<void> begin(const Spectacle& spectacle) = 0;
-    virtual engine::Result<void> add(double time, std::span<const brittle::Pose> poses) = 0;
+    virtual engine::Result<void> add(double time, const brittle::Poses& poses) = 0;
     virtual engine::Result<void> finish() = 0;
     virtual engine::Result<void> commit() = 0; // only now it is there
 };

@@ -7,6 +7,7 @@ namespace cli {
 namespace {
 
 constexpr double kGoldenPart = 0.6180339887498949;
+constexpr double kFamily = 0.06; // of all hues, those of what was one body
 constexpr float kGround = 0.34f, kShade = 0.45f;
 
 // A hue from 0 to 1 by the usual six ramps, as a linear color.
@@ -28,8 +29,10 @@ gpu::ObjectColor colorOf(const brittle::BodyLook& look, size_t number, double fa
     const auto end = static_cast<float>(fading_distance);
     if (look.is_plane) return {{kGround, kGround, kGround * 1.03f, 1}, {kGround, kGround, kGround, end}};
     if (!look.moves) return {{0.45f, 0.45f, 0.46f, 1}, {0.45f, 0.45f, 0.46f, 0}};
-    const double hue = std::fmod(0.07 + kGoldenPart * static_cast<double>(number), 1);
-    const double value = 0.72 + 0.16 * std::fmod(7 * kGoldenPart * static_cast<double>(number), 1);
+    const double share = std::fmod(7 * kGoldenPart * static_cast<double>(number), 1); // from 0 to 1, one of many
+    const double own_hue = 0.07 + kGoldenPart * static_cast<double>(look.origin.value_or(static_cast<uint32_t>(number)));
+    const double hue = std::fmod(own_hue + (look.origin ? kFamily * (share - 0.5) + 1 : 0), 1);
+    const double value = 0.72 + 0.16 * share;
     return {packed(colorOf(hue, 0.37, value), 1), packed(colorOf(hue, 0.55, 0.72 * value), 0)};
 }
 

@@ -6,8 +6,8 @@
 
 namespace cli {
 
-// Of what moves one of many hues, neighbors in number far apart; its cut faces darker. What does not move is gray, and planes
-// fade out so far from the eye.
+// Of what moves one of many hues, neighbors in number far apart; fragments about that of the body that broke; cut faces darker.
+// What does not move is gray, and planes fade out so far from the eye.
 gpu::ObjectColor colorOf(const brittle::BodyLook& look, size_t number, double fading_distance);
 // Of all that lies on a plane.
 gpu::ObjectColor shadowColor(double fading_distance);

@@ -61,7 +61,7 @@ Result<SimulateOutcome> run(const SimulateOptions& options) {
     auto opened = engine::Device::create({.select = options.device});
     if (!opened) return opened.error();
     device = std::move(*opened);
-    const auto staged = stageScene(*device, std::move(*scene), {options.scene, options.group_size, !options.output.empty()});
+    auto staged = stageScene(*device, std::move(*scene), {options.scene, options.group_size, !options.output.empty()});
     if (!staged) return staged.error();
     auto report = simulate(*device, *staged, options.seconds, options.group_size, output->get());
     if (!report) return report.error();
@@ -118,7 +118,8 @@ void addSimulate(CLI::App& app, int& exit_code) {
     inRange(seconds, 0, kMostSeconds);
     auto* fps = command->add_option("--fps", options->fps, "frames a second, of animations, numbered pictures and films");
     inRange(fps, kLeastFps, kMostFps)->capture_default_str()->needs(output);
-    auto* hash = command->add_flag("--state-hash", options->state_hash, "print 64 bits that tell the last state of all bodies, and no more");
+    auto* hash = command->add_flag("--state-hash", options->state_hash,
+                                   "print 64 bits that tell the last state of all bodies, and no more");
     command->add_flag("--json", options->as_json, "print one JSON object, the hash in it")->excludes(hash);
     addDeviceOptions(*command, options->device, options->group_size, "; the motion is the same");
     command->callback([options, &exit_code] { exit_code = runSimulate(*options); });

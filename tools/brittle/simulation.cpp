@@ -33,10 +33,16 @@ Error aboutScene(const StagedScene& staged, const Error& error) {
     return {error.code, staged.scene.name + ": " + error.message + advice};
 }
 
+// What is absent has no mass.
+uint32_t moversOf(std::span<const gpu::BodyState> bodies) {
+    return static_cast<uint32_t>(std::ranges::count_if(bodies, [](const gpu::BodyState& body) { return body.offset.w > 0; }));
+}
+
 class Simulation {
 public:
-    Simulation(engine::Device& device, const StagedScene& staged, brittle::World& world, uint32_t steps)
-        : device_(device), staged_(staged), world_(world), steps_(steps), clock_(world, staged.scene.step.dt, steps) {}
+    Simulation(engine::Device& device, StagedScene& staged, brittle::World& world, uint32_t steps)
+        : device_(device), staged_(staged), world_(world), steps_(steps),
+          clock_(world, staged.surfaces, staged.scene.step.dt, steps) {}
 
     Result<void> run(MotionOutput* output) {
         if (output != nullptr)
@@ -52,7 +58,7 @@ private:
     void addTimes(SimulationReport& report) const;
 
     engine::Device& device_;
-    const StagedScene& staged_;
+    StagedScene& staged_; // to whose surfaces fragments are added
     brittle::World& world_;
     uint32_t steps_;
     size_t frames_ = 0;
@@ -83,8 +89,9 @@ Result<SimulationReport> Simulation::report() const {
     report.dispatches = world_.dispatches();
     report.counts = {static_cast<uint32_t>(staged_.contents.bodies.size()),
                      static_cast<uint32_t>(staged_.contents.pieces.size())};
-    report.movers = static_cast<uint32_t>(
-        std::ranges::count_if(staged_.contents.bodies, [](const gpu::BodyState& body) { return body.offset.w > 0; }));
+    report.movers = moversOf(staged_.contents.bodies);
+    report.colliders = report.counts.bodies - report.movers;
+    report.pieces = report.counts.pieces;
     report.left_out = brittle::effectsWithout(staged_.scene);
     if (steps_ > 0) {
         const auto counts = world_.counts();
@@ -94,6 +101,7 @@ Result<SimulationReport> Simulation::report() const {
     }
     const auto bodies = world_.bodies();
     if (!bodies) return bodies.error();
+    report.movers_left = moversOf(*bodies);
     report.kinetic_energy = brittle::kineticEnergyOf(*bodies);
     const auto hash = world_.hash();
     if (!hash) return hash.error();
@@ -147,7 +155,7 @@ Result<std::unique_ptr<brittle::World>> worldOf(engine::Device& device, const St
     return world;
 }
 
-Result<SimulationReport> simulate(engine::Device& device, const StagedScene& staged, std::optional<double> seconds,
+Result<SimulationReport> simulate(engine::Device& device, StagedScene& staged, std::optional<double> seconds,
                                   uint32_t group_size, MotionOutput* output) {
     const auto steps = stepsOf(staged.scene.step, seconds);
     if (!steps) return steps.error();
@@ -183,8 +191,11 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"ms_per_step", {{"median", r.median_ms}, {"p99", r.p99_ms}, {"first", r.first_ms}}},
             {"dispatches_per_step", r.dispatches},
             {"bodies", r.movers},
-            {"colliders", r.counts.bodies - r.movers},
-            {"pieces", r.counts.pieces},
+            {"bodies_at_end", r.movers_left},
+            {"broken", r.counts.broken},
+            {"fragments", r.counts.fragments},
+            {"colliders", r.colliders},
+            {"pieces", r.pieces},
             {"pairs", r.counts.pairs},
             {"contacts", r.counts.contacts},
             {"awake", r.counts.awake},
@@ -195,11 +206,13 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
 }
 
 void printSimulation(const SimulationReport& r, const std::string& output) {
-    std::printf("scene      %s: %u bodies and %u colliders, of %u pieces\n", r.scene.c_str(), r.movers,
-                r.counts.bodies - r.movers, r.counts.pieces);
+    std::printf("scene      %s: %u bodies and %u colliders, of %u pieces\n", r.scene.c_str(), r.movers, r.colliders, r.pieces);
     std::printf("steps      %u, %s s; at the last %u pairs, %u contacts, %u bodies awake, %s J of motion\n", r.steps,
                 brittle::formatNumber(r.seconds).c_str(), r.counts.pairs, r.counts.contacts, r.counts.awake,
                 brittle::formatNumber(r.kinetic_energy).c_str());
+    if (r.counts.broken > 0)
+        std::printf("broken     %u bodies, into %u fragments; %u bodies at the end\n", r.counts.broken, r.counts.fragments,
+                    r.movers_left);
     std::printf("time       %.2f ms a step (median), %.2f (99 of 100), %.0f the first; %u dispatches\n", r.median_ms, r.p99_ms,
                 r.first_ms, r.dispatches);
     for (const auto& [name, share] : r.shares)

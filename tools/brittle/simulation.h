@@ -20,7 +20,7 @@ constexpr double kUsualFps = 60;
 struct StagedScene {
     brittle::SceneDescription scene;
     brittle::WorldContents contents;
-    brittle::WorldSurfaces surfaces;                              // only read where there is an output
+    brittle::WorldSurfaces surfaces;                        // only read where there is an output
     std::string room_advice = "see [budgets] in the scene"; // where something does not fit
 };
 
@@ -41,8 +41,10 @@ struct SimulationReport {
     double seconds = 0;
     size_t frames = 0; // that were written
     brittle::WorldCounts counts;
-    uint32_t movers = 0; // of the bodies; the others are colliders
-    uint32_t dispatches = 0; // of a step
+    uint32_t movers = 0;                // at the beginning; the other bodies are colliders
+    uint32_t colliders = 0, pieces = 0; // likewise
+    uint32_t movers_left = 0;           // at the end, after some have become fragments
+    uint32_t dispatches = 0;            // of a step
     // Wall clock of a step, with the wait for it. The first is apart: the driver compiles kernels in it.
     double first_ms = 0, median_ms = 0, p99_ms = 0;
     std::vector<std::pair<std::string, double>> shares; // of stages in the device time of all steps
@@ -52,8 +54,9 @@ struct SimulationReport {
 };
 
 // In whole steps: `seconds` is rounded up to them; none: as many steps as the scene says. `output` may be nullptr; it is
-// finished, not committed. Errors: what the world says, Capacity with the key of the scene to raise.
-engine::Result<SimulationReport> simulate(engine::Device& device, const StagedScene& staged, std::optional<double> seconds,
+// finished, not committed; surfaces of fragments are added to `staged` for it. Errors: what the world says, Capacity with the
+// key of the scene to raise.
+engine::Result<SimulationReport> simulate(engine::Device& device, StagedScene& staged, std::optional<double> seconds,
                                           uint32_t group_size, MotionOutput* output);
 
 nlohmann::ordered_json simulationJson(const SimulationReport& report);

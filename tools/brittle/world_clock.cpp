@@ -15,7 +15,7 @@ constexpr double kOnStep = 1e-6; // of a step: so near to one a moment is on it
 
 } // namespace
 
-Result<std::vector<brittle::Pose>> WorldClock::posesAt(double time) {
+Result<brittle::Poses> WorldClock::posesAt(double time) {
     const double steps = time / dt_;
     const auto before = static_cast<uint64_t>(std::floor(steps + kOnStep));
     const double share = steps - static_cast<double>(before);
@@ -24,22 +24,16 @@ Result<std::vector<brittle::Pose>> WorldClock::posesAt(double time) {
     if (share < kOnStep || before == last_step_) return **first;
     const auto second = posesOf(before + 1);
     if (!second) return second.error();
-    Poses poses;
-    for (size_t body = 0; body < (*first)->size(); ++body)
-        poses.push_back(brittle::between((**first)[body], (**second)[body], share));
-    return poses;
+    return brittle::between(**first, **second, share);
 }
 
-Result<const WorldClock::Poses*> WorldClock::posesOf(uint64_t step) {
+Result<const brittle::Poses*> WorldClock::posesOf(uint64_t step) {
     if (const auto found = kept_.find(step); found != kept_.end()) return &found->second;
     if (auto advanced = advanceTo(step); !advanced) return advanced.error();
-    const auto bodies = world_.bodies();
-    if (!bodies) return bodies.error();
+    auto poses = cast_.poses();
+    if (!poses) return poses.error();
     if (kept_.size() > 1) kept_.erase(kept_.begin());
-    Poses& poses = kept_[step];
-    for (const gpu::BodyState& body : *bodies)
-        poses.push_back(brittle::poseOf(body));
-    return &poses;
+    return &(kept_[step] = std::move(*poses));
 }
 
 Result<void> WorldClock::advanceTo(uint64_t step) {

@@ -1,8 +1,7 @@
 // A world that is asked where its bodies are at moments between its steps, and how long its steps take.
 #pragma once
 
-#include "modules/brittle/dynamics/pose.h"
-#include "modules/brittle/dynamics/world.h"
+#include "tools/brittle/body_cast.h"
 
 #include <map>
 #include <string>
@@ -13,24 +12,27 @@ namespace cli {
 
 class WorldClock {
 public:
-    WorldClock(brittle::World& world, double dt, uint64_t last_step) : world_(world), dt_(dt), last_step_(last_step) {}
+    // `surfaces`: of all bodies, where it is asked for poses (BodyCast).
+    WorldClock(brittle::World& world, brittle::WorldSurfaces& surfaces, double dt, uint64_t last_step)
+        : world_(world), cast_(world, surfaces), dt_(dt), last_step_(last_step) {}
 
-    // Moments in order. On a step it is the step's own state, between two steps evenly on the way from one to the other.
-    engine::Result<std::vector<brittle::Pose>> posesAt(double time);
+    // Moments in order. On a step it is the step's own state, between two steps evenly on the way from one to the other, of
+    // the bodies that there are at the first of the two.
+    engine::Result<brittle::Poses> posesAt(double time);
     engine::Result<void> advanceTo(uint64_t step);
     const std::vector<double>& stepTimes() const { return ms_; }                          // ms, wall clock
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; } // ms on the device, of all steps
 
 private:
-    using Poses = std::vector<brittle::Pose>;
-    engine::Result<const Poses*> posesOf(uint64_t step);
+    engine::Result<const brittle::Poses*> posesOf(uint64_t step);
     engine::Result<void> stepOnce();
     void addStage(const engine::Timing& timing);
 
     brittle::World& world_;
+    BodyCast cast_;
     double dt_;
     uint64_t last_step_, made_ = 0;
-    std::map<uint64_t, Poses> kept_; // by step: the last two that were asked for
+    std::map<uint64_t, brittle::Poses> kept_; // by step: the last two that were asked for
     std::vector<double> ms_;
     std::vector<std::pair<std::string, double>> stages_;
 };

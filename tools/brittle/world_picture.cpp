@@ -7,13 +7,17 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <numbers>
+#include <optional>
+#include <unordered_map>
 
 namespace cli {
 namespace {
 
 using brittle::Double3;
 using brittle::Pose;
+using brittle::Poses;
 using brittle::operator-; // of arrays, which argument-dependent lookup does not find
 using engine::Buffer;
 using engine::Result;
@@ -60,38 +64,63 @@ engine::Camera cameraOf(const brittle::CameraDescription& d, const Double3& orig
     return camera;
 }
 
-// Objects are the bodies, and for each plane their shadows on it.
+// Objects are the bodies, and for each plane their shadows on it. Buffers hold the bodies that were there when the last one
+// appeared, those of them that have gone since as nothing.
 class DrawnWorld : public WorldPicture {
 public:
     explicit DrawnWorld(const Spectacle& s)
         : s_(s), camera_(cameraOf(s.scene.camera, s.origin)),
-          distance_(brittle::length(s.scene.camera.eye - s.scene.camera.target)) {
-        for (size_t body = 0; body < s.surfaces.bodies.size(); ++body)
-            (s.surfaces.bodies[body].is_plane ? planes_ : solids_).push_back(body);
-    }
+          distance_(brittle::length(s.scene.camera.eye - s.scene.camera.target)) {}
 
-    Result<void> createAll() {
+    Result<void> createRenderer() {
         auto renderer = engine::Renderer::create(s_.device, s_.scene.camera.width, s_.scene.camera.height);
         if (!renderer) return renderer.error();
         renderer_ = std::move(*renderer);
-        return createBuffers();
+        return {};
     }
 
-    Result<engine::Picture> draw(std::span<const Pose> poses) override {
+    Result<engine::Picture> draw(const Poses& poses) override {
+        if (hasNewBody(poses)) {
+            gather(poses);
+            if (auto made = createBuffers(); !made) return made.error();
+        }
         place(poses);
         return renderer_->draw({vertices_, indices_, commands_, matrices_, draw_count_, colors_}, camera_);
     }
 
 private:
-    size_t objectCount() const { return s_.surfaces.bodies.size() * (1 + planes_.size()); }
-    size_t shadowOf(size_t body, size_t plane) const { return s_.surfaces.bodies.size() * (1 + plane) + body; }
+    size_t objectCount() const { return bodies_.size() * (1 + planes_.size()); }
+    size_t shadowOf(size_t object, size_t plane) const { return bodies_.size() * (1 + plane) + object; }
+    const brittle::BodyLook& lookOf(size_t object) const { return s_.surfaces.bodies[bodies_[object]]; }
+
+    // Bodies are numbered as they appear, and are asked for in that order.
+    bool hasNewBody(const Poses& poses) const {
+        return std::any_of(poses.begin() + static_cast<ptrdiff_t>(known_), poses.end(),
+                           [](const auto& pose) { return pose.has_value(); });
+    }
+    void gather(const Poses& poses) {
+        known_ = poses.size();
+        bodies_.clear();
+        planes_.clear();
+        solids_.clear();
+        for (size_t body = 0; body < poses.size(); ++body) {
+            if (!poses[body]) continue;
+            (s_.surfaces.bodies[body].is_plane ? planes_ : solids_).push_back(bodies_.size());
+            bodies_.push_back(body);
+        }
+    }
 
     Result<void> createBuffers() {
         std::vector<brittle::FragmentVertex> vertices;
         std::vector<uint32_t> indices;
-        for (const brittle::SurfaceMesh& mesh : s_.surfaces.meshes) {
-            first_vertex_.push_back(static_cast<int32_t>(vertices.size()));
-            first_index_.push_back(static_cast<uint32_t>(indices.size()));
+        first_of_.clear();
+        for (const size_t body : bodies_) {
+            const uint32_t index = s_.surfaces.bodies[body].mesh;
+            if (!first_of_
+                     .try_emplace(index, First{static_cast<int32_t>(vertices.size()), static_cast<uint32_t>(indices.size())})
+                     .second)
+                continue;
+            const brittle::SurfaceMesh& mesh = s_.surfaces.meshes[index];
             vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
             indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
         }
@@ -113,69 +142,82 @@ private:
     // Solids, then what fades out: planes, and the shadows that lie a little above them.
     std::vector<gpu::DrawCommand> drawCommands() const {
         std::vector<gpu::DrawCommand> commands;
-        for (const size_t body : solids_)
-            addDraws(commands, body, body);
-        for (const size_t body : planes_)
-            addDraws(commands, body, body);
+        for (const size_t solid : solids_)
+            addDraws(commands, solid, solid);
+        for (const size_t plane : planes_)
+            addDraws(commands, plane, plane);
         for (size_t plane = 0; plane < planes_.size(); ++plane)
-            for (const size_t body : solids_)
-                addDraws(commands, body, shadowOf(body, plane));
+            for (const size_t solid : solids_)
+                addDraws(commands, solid, shadowOf(solid, plane));
         return commands;
     }
-    void addDraws(std::vector<gpu::DrawCommand>& commands, size_t body, size_t object) const {
-        const uint32_t mesh = s_.surfaces.bodies[body].mesh;
-        const auto all = static_cast<uint32_t>(s_.surfaces.meshes[mesh].indices.size());
-        const uint32_t outer = s_.surfaces.meshes[mesh].outer_index_count, first = first_index_[mesh];
+    // What it looks like, and as what it is drawn.
+    void addDraws(std::vector<gpu::DrawCommand>& commands, size_t look, size_t object) const {
+        const brittle::SurfaceMesh& mesh = s_.surfaces.meshes[lookOf(look).mesh];
+        const First first = first_of_.at(lookOf(look).mesh);
+        const auto all = static_cast<uint32_t>(mesh.indices.size());
+        const uint32_t outer = mesh.outer_index_count;
         const auto instance = static_cast<uint32_t>(2 * object);
-        if (outer > 0) commands.push_back({outer, 1, first, first_vertex_[mesh], instance});
-        if (outer < all) commands.push_back({all - outer, 1, first + outer, first_vertex_[mesh], instance + 1});
+        if (outer > 0) commands.push_back({outer, 1, first.index, first.vertex, instance});
+        if (outer < all) commands.push_back({all - outer, 1, first.index + outer, first.vertex, instance + 1});
     }
 
     std::vector<gpu::ObjectColor> colors() const {
         const double fading = kFading * distance_;
         std::vector<gpu::ObjectColor> colors(objectCount(), shadowColor(fading));
-        for (size_t body = 0; body < s_.surfaces.bodies.size(); ++body)
-            colors[body] = colorOf(s_.surfaces.bodies[body], body, fading);
+        for (size_t object = 0; object < bodies_.size(); ++object)
+            colors[object] = colorOf(lookOf(object), bodies_[object], fading);
         return colors;
     }
 
-    void place(std::span<const Pose> poses) {
+    void place(const Poses& poses) {
         auto* matrices = matrices_.mappedAs<gpu::ObjectMatrix>();
-        for (const size_t body : solids_)
-            matrices[body] = packed(matrixOf(poses[body], s_.origin));
+        for (const size_t solid : solids_) {
+            const auto matrix = matrixFor(solid, poses);
+            matrices[solid] = matrix ? packed(*matrix) : gpu::ObjectMatrix{};
+        }
         for (size_t plane = 0; plane < planes_.size(); ++plane) {
-            const Matrix own = matrixOf(poses[planes_[plane]], s_.origin);
+            const Matrix own = *matrixFor(planes_[plane], poses); // planes do not break
             matrices[planes_[plane]] = packed(own * Eigen::Scaling(stretchOf(planes_[plane], own)));
             placeShadows(plane, own, poses);
         }
     }
+    std::optional<Matrix> matrixFor(size_t object, const Poses& poses) const {
+        const auto& pose = poses[bodies_[object]];
+        return pose ? std::optional(matrixOf(*pose, s_.origin)) : std::nullopt;
+    }
 
     // So that it ends nowhere within sight.
-    double stretchOf(size_t body, const Matrix& plane) const {
+    double stretchOf(size_t object, const Matrix& plane) const {
         const Vector eye = vectorOf(brittle::toDouble(camera_.eye));
-        const double edge = 2 * std::abs(s_.surfaces.meshes[s_.surfaces.bodies[body].mesh].vertices[0].position[0]);
+        const double edge = 2 * std::abs(s_.surfaces.meshes[lookOf(object).mesh].vertices[0].position[0]);
         return 2 * (kFading * distance_ + (plane.translation() - eye).norm()) / edge;
     }
 
-    void placeShadows(size_t plane, const Matrix& own, std::span<const Pose> poses) {
+    void placeShadows(size_t plane, const Matrix& own, const Poses& poses) {
         const Vector light = vectorOf(brittle::toDouble(engine::keyLight(camera_)));
         const Vector normal = own.linear().col(1), point = own.translation();
         const bool is_lit = normal.dot(light) > kGrazing;
         const Matrix flat = is_lit ? shadowOnto(point, normal, light, kShadowLift * distance_) : Matrix::Identity();
         auto* matrices = matrices_.mappedAs<gpu::ObjectMatrix>();
-        for (const size_t body : solids_) {
-            const Matrix matrix = matrixOf(poses[body], s_.origin);
-            const bool is_above = normal.dot(matrix.translation() - point) > 0;
-            matrices[shadowOf(body, plane)] = is_lit && is_above ? packed(flat * matrix) : gpu::ObjectMatrix{};
+        for (const size_t solid : solids_) {
+            const auto matrix = matrixFor(solid, poses);
+            const bool is_seen = is_lit && matrix && normal.dot(matrix->translation() - point) > 0;
+            matrices[shadowOf(solid, plane)] = is_seen ? packed(flat * *matrix) : gpu::ObjectMatrix{};
         }
     }
 
+    struct First {
+        int32_t vertex;
+        uint32_t index;
+    };
     const Spectacle s_;
     engine::Camera camera_;
     double distance_;
-    std::vector<size_t> planes_, solids_; // bodies
-    std::vector<int32_t> first_vertex_;   // by mesh
-    std::vector<uint32_t> first_index_;
+    size_t known_ = 0;                             // bodies that have been asked about
+    std::vector<size_t> bodies_;                   // by object
+    std::vector<size_t> planes_, solids_;          // objects
+    std::unordered_map<uint32_t, First> first_of_; // by mesh
     uint32_t draw_count_ = 0;
     Buffer vertices_, indices_, commands_, colors_, matrices_;
     std::unique_ptr<engine::Renderer> renderer_;
@@ -185,7 +227,7 @@ private:
 
 Result<std::unique_ptr<WorldPicture>> WorldPicture::create(const Spectacle& spectacle) {
     auto world = std::make_unique<DrawnWorld>(spectacle);
-    if (auto made = world->createAll(); !made) return made.error();
+    if (auto made = world->createRenderer(); !made) return made.error();
     return std::unique_ptr<WorldPicture>(std::move(world));
 }
 

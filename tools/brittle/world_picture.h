@@ -5,7 +5,6 @@
 #include "tools/brittle/motion_output.h"
 
 #include <memory>
-#include <span>
 
 namespace cli {
 
@@ -14,7 +13,7 @@ public:
     // As large as the scene's camera wants them. Errors: Device, where it cannot draw; BadInput, for more pixels than it has.
     static engine::Result<std::unique_ptr<WorldPicture>> create(const Spectacle& spectacle);
     virtual ~WorldPicture() = default;
-    virtual engine::Result<engine::Picture> draw(std::span<const brittle::Pose> poses) = 0;
+    virtual engine::Result<engine::Picture> draw(const brittle::Poses& poses) = 0;
 };
 
 } // namespace cli

@@ -32,7 +32,7 @@ void recordRetirement(Recorder& record, const BrokenParts& parts, const Breakabl
     record.commands().beginLabel("retire");
     record.run("retire_bodies", Length::counted(COUNT_BREAKING), engine::NoPush{},
                {record.counts(), parts.broken, adopted, world.shapes, world.hulls.records, world.bodies, world.breakable,
-                world.pieces, returned});
+                world.pieces, returned, world.steps});
     record.commands().endLabel();
 }
 

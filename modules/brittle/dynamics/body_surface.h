@@ -7,6 +7,7 @@
 #include "modules/brittle/mesh/imported_mesh.h"
 #include "modules/brittle/scene/hull/convex_hull.h"
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -23,7 +24,8 @@ struct BodyLook {
     uint32_t mesh = 0;
     std::string name;
     bool moves = false;
-    bool is_plane = false; // its mesh is a square, of which only the middle is meant: a plane has no end
+    bool is_plane = false;               // its mesh is a square, of which only the middle is meant: a plane has no end
+    std::optional<uint32_t> origin = {}; // of a fragment the first body that it was a part of, of these
 };
 
 struct WorldSurfaces {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace brittle {
@@ -39,6 +40,13 @@ Pose poseOf(const gpu::BodyState& body) {
 
 Pose between(const Pose& a, const Pose& b, double share) {
     return {a.place + share * (b.place - a.place), turnOf(rotation(a.turn).slerp(share, rotation(b.turn)))};
+}
+
+Poses between(const Poses& a, const Poses& b, double share) {
+    Poses poses = a;
+    for (size_t body = 0; body < std::min(a.size(), b.size()); ++body)
+        if (a[body] && b[body]) poses[body] = between(*a[body], *b[body], share);
+    return poses;
 }
 
 double kineticEnergyOf(std::span<const gpu::BodyState> bodies) {

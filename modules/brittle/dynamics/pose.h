@@ -3,7 +3,9 @@
 
 #include "modules/brittle/dynamics/world_contents.h"
 
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace brittle {
 
@@ -17,8 +19,13 @@ struct Pose {
 };
 
 Pose poseOf(const gpu::BodyState& body);
+// Of bodies at a moment, one each; none for what is not there yet or any more.
+using Poses = std::vector<std::optional<Pose>>;
+
 // On the way from `a` (share 0) to `b` (share 1): straight on, and turning evenly by the shorter way.
 Pose between(const Pose& a, const Pose& b, double share);
+// Of the bodies that are there at `a`: what is not at `b` any more stays where it was.
+Poses between(const Poses& a, const Poses& b, double share);
 
 // J, of all that moves and turns.
 double kineticEnergyOf(std::span<const gpu::BodyState> bodies);

@@ -8,6 +8,7 @@
 #include "modules/brittle/fracture/upload.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 namespace brittle {
@@ -85,6 +86,24 @@ public:
         return as_added;
     }
 
+    Result<std::vector<BodyFragment>> fragments() override {
+        if (!breaking_ || fragments_of_ == broken_) return fragments_;
+        auto read = readFragments(device_, breaking_->breakable(), slots_);
+        if (!read) return read;
+        for (BodyFragment& fragment : *read) {
+            fragment.slot = bodyAsAdded(fragment.slot);
+            fragment.origin = bodyAsAdded(fragment.origin);
+        }
+        fragments_ = std::move(*read);
+        fragments_of_ = broken_;
+        return fragments_;
+    }
+
+    Result<std::vector<SurfaceMesh>> surfacesOf(std::span<const BodyFragment> fragments) override {
+        if (fragments.empty()) return std::vector<SurfaceMesh>();
+        return readSurfaces(device_, breaking_->surfaceVertices(), fragments);
+    }
+
     Result<WorldCounts> counts() override {
         std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLOR_WORDS);
         std::vector<Fetch> wanted = {{b_.counts, words.data(), 4 * words.size()}, {b_.args, args.data(), 4 * args.size()}};
@@ -94,8 +113,10 @@ public:
         for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_SOLVED_APART; k++)
             c.groups += args[9 * k] * args[9 * k + 1];
         c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
-        c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers;
+        c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers + fragments_made_ - broken_;
         c.colorless = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_LACKED];
+        c.broken = broken_;
+        c.fragments = fragments_made_;
         return c;
     }
 
@@ -175,6 +196,7 @@ public:
         if (auto done = upload.send(device_); !done) return done;
         auto words = takeStock();
         if (!words) return words.error();
+        fragments_of_.reset(); // as many may have broken in another way
         return failureOf(*words);
     }
 
@@ -269,6 +291,8 @@ private:
         if (auto read = fetch(device_, wanted); !read) return read.error();
         made_ = steps[STEPS_MADE];
         slots_ = steps[STEPS_BODIES];
+        broken_ = steps[STEPS_BROKEN];
+        fragments_made_ = steps[STEPS_FRAGMENTS];
         return words;
     }
 
@@ -337,6 +361,9 @@ private:
     RoomToBreak to_break_;
     uint32_t heard_ = 0; // of what broke
     uint32_t slots_ = 0; // of bodies, that have ever held one
+    uint32_t broken_ = 0, fragments_made_ = 0;
+    std::vector<BodyFragment> fragments_; // as they were when so many bodies had broken
+    std::optional<uint32_t> fragments_of_ = 0;
 };
 
 } // namespace

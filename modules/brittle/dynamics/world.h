@@ -6,6 +6,7 @@
 
 #include "engine/commands.h"
 #include "engine/device.h"
+#include "modules/brittle/breaking/body_fragment.h"
 #include "modules/brittle/breaking/room_to_break.h"
 #include "modules/brittle/dynamics/step_plan.h"
 #include "modules/brittle/dynamics/step_settings.h"
@@ -35,6 +36,8 @@ struct WorldCounts {
     uint32_t groups = 0;    // workgroups that bodies, pairs, contacts and colors were dispatched over; none while all sleep
     uint32_t colors = 0;    // in use
     uint32_t colorless = 0; // contacts for which there was no color left; they are solved one by one
+    uint32_t broken = 0;    // bodies that have broken since the beginning
+    uint32_t fragments = 0; // that they became; some may have broken again
 };
 
 class World {
@@ -51,6 +54,10 @@ public:
 
     // In the order in which they were added; behind them slots of fragments, some of which may be empty (BODY_ABSENT).
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;
+    // Those of these slots that hold a fragment now. Read anew only where something has broken since they were last asked for.
+    virtual engine::Result<std::vector<BodyFragment>> fragments() = 0;
+    // In the frames of their bodies. `fragments` are of the world as it is now.
+    virtual engine::Result<std::vector<SurfaceMesh>> surfacesOf(std::span<const BodyFragment> fragments) = 0;
     virtual engine::Result<WorldCounts> counts() = 0; // of the last step
     // What has broken since it was last asked, in order, with the effect `events`; the device keeps the last 1024, and how many
     // were lost is told. Bodies by their index as added, fragments by their slots.

@@ -130,7 +130,7 @@ std::array<uint32_t, STEPS_WORDS> firstSteps(const WorldContents& c) {
     const auto unused = [](const gpu::PieceRecord& piece) { return piece.ids.y == NO_INDEX; };
     const auto bodies = std::ranges::find_if(c.bodies, absent) - c.bodies.begin();
     const auto pieces = std::ranges::find_if(c.pieces, unused) - c.pieces.begin();
-    return {0, 0, static_cast<uint32_t>(bodies), static_cast<uint32_t>(pieces)};
+    return {0, 0, static_cast<uint32_t>(bodies), static_cast<uint32_t>(pieces), 0, 0};
 }
 
 Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b) {

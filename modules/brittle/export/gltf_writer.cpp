@@ -157,12 +157,12 @@ size_t GltfWriter::bytes() const {
 }
 
 void GltfWriter::joinViews() {
-    static constexpr std::array<size_t, kViewCount> kStrides = {12, 12, 8, 0, 0, 0, 0};
+    static constexpr std::array<size_t, kViewCount> kStrides = {12, 12, 8, 0, 0, 0, 0, 0};
     tinygltf::Buffer& buffer = model_.buffers.emplace_back();
-    size_t used = kViewCount; // an empty view is none; those of motion are the last, and empty together
-    while (used > 0 && data_[used - 1].empty())
-        --used;
-    for (size_t k = 0; k < used; ++k) {
+    std::array<int, kViewCount> index_of = {}; // the format has no empty views
+    for (size_t k = 0; k < kViewCount; ++k) {
+        if (data_[k].empty()) continue;
+        index_of[k] = static_cast<int>(model_.bufferViews.size());
         tinygltf::BufferView& view = model_.bufferViews.emplace_back();
         view.buffer = 0;
         view.byteOffset = buffer.data.size();
@@ -172,6 +172,8 @@ void GltfWriter::joinViews() {
         buffer.data.insert(buffer.data.end(), data_[k].begin(), data_[k].end());
         data_[k] = {};
     }
+    for (tinygltf::Accessor& accessor : model_.accessors)
+        accessor.bufferView = index_of[static_cast<size_t>(accessor.bufferView)];
 }
 
 engine::Result<std::string> GltfWriter::finish(const char* what, const char* advice) {

@@ -19,7 +19,7 @@ namespace brittle {
 class GltfWriter {
 public:
     // One buffer with a view for each kind of data: 20,000 fragments need 80,000 accessors, but not as many views.
-    enum View { kPositions, kNormals, kUvs, kIndices, kTimes, kPlaces, kTurns, kViewCount };
+    enum View { kPositions, kNormals, kUvs, kIndices, kTimes, kPlaces, kTurns, kScales, kViewCount };
 
     GltfWriter();
 

@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace brittle {
 namespace {
@@ -41,31 +43,37 @@ Turn lookingAlong(const CameraDescription& camera) {
 class Encoder {
 public:
     Encoder(const WorldSurfaces& surfaces, const CameraDescription& camera, const Double3& origin, std::span<const float> times,
-            std::span<const Place> places, std::span<const Rotation> turns)
-        : surfaces_(surfaces), camera_(camera), origin_(origin), times_(times), places_(places), turns_(turns) {}
+            std::span<const BodyTrack> tracks)
+        : surfaces_(surfaces), camera_(camera), origin_(origin), times_(times), tracks_(tracks) {}
     engine::Result<std::string> run();
 
 private:
     void addWorld();
-    void addBody(size_t body);
+    void addBody(const BodyLook& look, const BodyTrack& track);
     int meshOf(const BodyLook& look);
     void addCamera();
     int addChild(const std::string& name);
-    void addMotion(size_t body, int node);
+    void addMotion(const BodyTrack& track, int node);
+    int timesOf(const BodyTrack& track);
+    // Of what is not there all the time.
+    void addVisits(const BodyTrack& track, int node);
+    std::array<int, 2> visitsOf(const BodyTrack& track); // times and scales
     template <size_t width>
-    void addChannel(int node, const char* path, GltfWriter::View view, size_t body,
-                    std::span<const std::array<float, width>> keys);
+    int addKeys(GltfWriter::View view, std::span<const std::array<float, width>> keys);
+    void addChannel(int node, const char* path, std::array<int, 2> keys, const char* interpolation);
 
     const WorldSurfaces& surfaces_;
     const CameraDescription& camera_;
     const Double3& origin_;
     std::span<const float> times_;
-    std::span<const Place> places_;
-    std::span<const Rotation> turns_;
+    std::span<const BodyTrack> tracks_;
     GltfWriter writer_;
     tinygltf::Model& model_ = writer_.model();
     tinygltf::Animation motion_;
-    int outer_ = 0, inner_ = 0, still_ = 0, input_ = -1;
+    int outer_ = 0, inner_ = 0, still_ = 0;
+    using Stay = std::pair<size_t, size_t>;
+    std::map<Stay, int> times_of_;
+    std::map<Stay, std::array<int, 2>> visits_of_;
     std::vector<std::array<int, 2>> meshes_; // by surface: of what is still, of what moves; -1 where there is none yet
 };
 
@@ -75,8 +83,8 @@ engine::Result<std::string> Encoder::run() {
     still_ = writer_.addMaterial("still", {0.42, 0.44, 0.47});
     meshes_.resize(surfaces_.meshes.size(), {-1, -1});
     addWorld();
-    for (size_t body = 0; body < surfaces_.bodies.size(); ++body)
-        addBody(body);
+    for (size_t body = 0; body < tracks_.size(); ++body)
+        if (!tracks_[body].places.empty()) addBody(surfaces_.bodies[body], tracks_[body]);
     addCamera();
     motion_.name = "motion";
     if (!motion_.channels.empty()) model_.animations.push_back(std::move(motion_));
@@ -97,14 +105,15 @@ int Encoder::addChild(const std::string& name) {
     return index;
 }
 
-void Encoder::addBody(size_t body) {
-    const BodyLook& look = surfaces_.bodies[body];
+void Encoder::addBody(const BodyLook& look, const BodyTrack& track) {
     const int index = addChild(look.name);
     tinygltf::Node& node = model_.nodes.back();
     node.mesh = meshOf(look);
-    node.translation.assign(places_[body].begin(), places_[body].end());
-    node.rotation.assign(turns_[body].begin(), turns_[body].end());
-    if (look.moves) addMotion(body, index);
+    node.translation.assign(track.places[0].begin(), track.places[0].end());
+    node.rotation.assign(track.turns[0].begin(), track.turns[0].end());
+    if (track.first > 0) node.scale = {0, 0, 0};
+    if (look.moves) addMotion(track, index);
+    addVisits(track, index);
 }
 
 int Encoder::meshOf(const BodyLook& look) {
@@ -123,27 +132,54 @@ int Encoder::meshOf(const BodyLook& look) {
     return index;
 }
 
-void Encoder::addMotion(size_t body, int node) {
-    const size_t bodies = surfaces_.bodies.size();
-    bool moved = false;
-    for (size_t at = body; at < places_.size(); at += bodies)
-        moved = moved || places_[at] != places_[body] || turns_[at] != turns_[body];
-    if (!moved) return;
-    if (input_ < 0) input_ = writer_.addNumbers(GltfWriter::kTimes, times_, 1);
-    addChannel(node, "translation", GltfWriter::kPlaces, body, places_);
-    addChannel(node, "rotation", GltfWriter::kTurns, body, turns_);
+void Encoder::addMotion(const BodyTrack& track, int node) {
+    const auto stays = [](const auto& keys) {
+        return std::ranges::all_of(keys, [&](const auto& key) { return key == keys[0]; });
+    };
+    if (stays(track.places) && stays(track.turns)) return;
+    const int times = timesOf(track);
+    addChannel(node, "translation", {times, addKeys<3>(GltfWriter::kPlaces, track.places)}, "LINEAR");
+    addChannel(node, "rotation", {times, addKeys<4>(GltfWriter::kTurns, track.turns)}, "LINEAR");
+}
+
+int Encoder::timesOf(const BodyTrack& track) {
+    const auto [entry, is_new] = times_of_.try_emplace({track.first, track.end()});
+    if (is_new) entry->second = writer_.addNumbers(GltfWriter::kTimes, times_.subspan(track.first, track.places.size()), 1);
+    return entry->second;
+}
+
+void Encoder::addVisits(const BodyTrack& track, int node) {
+    if (track.first > 0 || track.end() < times_.size()) addChannel(node, "scale", visitsOf(track), "STEP");
+}
+
+std::array<int, 2> Encoder::visitsOf(const BodyTrack& track) {
+    const auto [entry, is_new] = visits_of_.try_emplace({track.first, track.end()});
+    if (!is_new) return entry->second;
+    std::vector<float> times;
+    std::vector<Place> scales;
+    const auto add = [&](size_t at, float scale) {
+        times.push_back(times_[at]);
+        scales.push_back({scale, scale, scale});
+    };
+    if (track.first > 0) add(0, 0);
+    add(track.first, 1);
+    if (track.end() < times_.size()) add(track.end(), 0);
+    return entry->second = {writer_.addNumbers(GltfWriter::kTimes, times, 1), addKeys<3>(GltfWriter::kScales, scales)};
 }
 
 template <size_t width>
-void Encoder::addChannel(int node, const char* path, GltfWriter::View view, size_t body,
-                         std::span<const std::array<float, width>> keys) {
+int Encoder::addKeys(GltfWriter::View view, std::span<const std::array<float, width>> keys) {
     std::vector<float> numbers;
-    for (size_t at = body; at < keys.size(); at += surfaces_.bodies.size())
-        numbers.insert(numbers.end(), keys[at].begin(), keys[at].end());
+    for (const auto& key : keys)
+        numbers.insert(numbers.end(), key.begin(), key.end());
+    return writer_.addNumbers(view, numbers, static_cast<int>(width));
+}
+
+void Encoder::addChannel(int node, const char* path, std::array<int, 2> keys, const char* interpolation) {
     tinygltf::AnimationSampler& sampler = motion_.samplers.emplace_back();
-    sampler.input = input_;
-    sampler.output = writer_.addNumbers(view, numbers, static_cast<int>(width));
-    sampler.interpolation = "LINEAR";
+    sampler.input = keys[0];
+    sampler.output = keys[1];
+    sampler.interpolation = interpolation;
     tinygltf::AnimationChannel& channel = motion_.channels.emplace_back();
     channel.sampler = static_cast<int>(motion_.samplers.size() - 1);
     channel.target_node = node;
@@ -170,28 +206,33 @@ void Encoder::addCamera() {
 
 } // namespace
 
-engine::Result<void> MotionGlb::add(double time, std::span<const Pose> poses) {
+engine::Result<void> MotionGlb::add(double time, const Poses& poses) {
     const auto at = static_cast<float>(time);
     if (!times_.empty() && at <= times_.back())
         return engine::Error{engine::ErrorCode::BadInput, "the frames at " + std::to_string(time) +
                                                               " s are too close for the file's floats; ask for fewer a second"};
-    const size_t bodies = surfaces_.bodies.size();
-    if ((places_.size() + bodies) * (sizeof(Place) + sizeof(Rotation)) > kMaxGlbBytes)
+    const auto there = static_cast<size_t>(std::ranges::count_if(poses, [](const auto& pose) { return pose.has_value(); }));
+    if ((keys_ + there) * (sizeof(Place) + sizeof(Rotation)) > kMaxGlbBytes)
         return engine::Error{engine::ErrorCode::Capacity,
                              "the motion exceeds the 4 GiB of a GLB file; ask for fewer seconds or frames a second"};
-    for (size_t body = 0; body < bodies; ++body) {
-        const Rotation* last = times_.empty() ? nullptr : &turns_[turns_.size() - bodies];
-        const Rotation turn = nearTo(last, poses[body].turn);
-        places_.push_back(toFloat(poses[body].place - origin_));
-        turns_.push_back(turn);
-    }
+    tracks_.resize(std::max(tracks_.size(), poses.size()));
+    for (size_t body = 0; body < poses.size(); ++body)
+        if (poses[body]) addKey(tracks_[body], *poses[body]);
     times_.push_back(at);
     return {};
 }
 
+void MotionGlb::addKey(BodyTrack& track, const Pose& pose) {
+    if (track.places.empty()) track.first = times_.size();
+    const Rotation turn = nearTo(track.turns.empty() ? nullptr : &track.turns.back(), pose.turn);
+    track.places.push_back(toFloat(pose.place - origin_));
+    track.turns.push_back(turn);
+    ++keys_;
+}
+
 engine::Result<std::string> MotionGlb::encode() const {
     if (times_.empty()) return engine::Error{engine::ErrorCode::Internal, "no motion to write"};
-    return Encoder(surfaces_, camera_, origin_, times_, places_, turns_).run();
+    return Encoder(surfaces_, camera_, origin_, times_, tracks_).run();
 }
 
 } // namespace brittle

@@ -1,0 +1,27 @@
+// Bodies that other bodies of a world have broken into, as the host reads them: which there are, and what they look like.
+#pragma once
+
+#include "engine/buffer.h"
+#include "engine/device.h"
+#include "modules/brittle/dynamics/body_surface.h"
+
+#include <span>
+
+namespace brittle {
+
+struct BodyFragment {
+    uint32_t slot = 0;   // of a body
+    uint32_t step = 0;   // that it was made in, counted from 1: another fragment in the same slot has another
+    uint32_t origin = 0; // the slot of the first body that it was a part of, however often that has broken since
+    gpu::BreakableBody record{};
+};
+
+// Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, by slot.
+engine::Result<std::vector<BodyFragment>> readFragments(engine::Device& device, engine::BufferView breakable, uint32_t slots);
+
+// About their centers of mass, along their own axes; what follows the outer triangles are faces of cuts. `vertices`:
+// SceneVertex, of all that `fragments` were read from and that has not broken since.
+engine::Result<std::vector<SurfaceMesh>> readSurfaces(engine::Device& device, engine::BufferView vertices,
+                                                      std::span<const BodyFragment> fragments);
+
+} // namespace brittle
