@@ -42,16 +42,19 @@ SurfaceMesh surfaceOf(const gpu::BreakableBody& body, std::span<const FragmentVe
 
 } // namespace
 
-Result<std::vector<BodyFragment>> readFragments(engine::Device& device, BufferView breakable, uint32_t slots) {
+Result<std::vector<BodyFragment>> FragmentList::read(engine::Device& device, BufferView breakable, uint32_t slots,
+                                                     uint32_t broken) {
+    if (known_of_ == broken) return known_;
     std::vector<gpu::BreakableBody> records(slots);
     const Fetch wanted[] = {{breakable, records.data(), records.size() * sizeof(gpu::BreakableBody)}};
     if (auto read = fetch(device, wanted); !read) return read.error();
-    std::vector<BodyFragment> fragments;
+    known_.clear();
     for (uint32_t slot = 0; slot < slots; ++slot)
         if (holdsFragment(records[slot]))
-            fragments.push_back({slot, static_cast<uint32_t>(records[slot].balance.w),
-                                 static_cast<uint32_t>(records[slot].low.w), records[slot]});
-    return fragments;
+            known_.push_back({slot, static_cast<uint32_t>(records[slot].balance.w), static_cast<uint32_t>(records[slot].low.w),
+                              records[slot]});
+    known_of_ = broken;
+    return known_;
 }
 
 Result<std::vector<SurfaceMesh>> readSurfaces(engine::Device& device, BufferView vertices,

@@ -5,6 +5,7 @@
 #include "engine/device.h"
 #include "modules/brittle/dynamics/body_surface.h"
 
+#include <optional>
 #include <span>
 
 namespace brittle {
@@ -16,8 +17,19 @@ struct BodyFragment {
     gpu::BreakableBody record{};
 };
 
-// Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, by slot.
-engine::Result<std::vector<BodyFragment>> readFragments(engine::Device& device, engine::BufferView breakable, uint32_t slots);
+// Which fragments there are, read anew only where something has broken since.
+class FragmentList {
+public:
+    // Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, by slot; `broken`: how many bodies
+    // have broken so far.
+    engine::Result<std::vector<BodyFragment>> read(engine::Device& device, engine::BufferView breakable, uint32_t slots,
+                                                   uint32_t broken);
+    void forget() { known_of_.reset(); }
+
+private:
+    std::vector<BodyFragment> known_; // when so many had broken
+    std::optional<uint32_t> known_of_ = 0;
+};
 
 // About their centers of mass, along their own axes; what follows the outer triangles are faces of cuts. `vertices`:
 // SceneVertex, of all that `fragments` were read from and that has not broken since.

@@ -8,7 +8,6 @@
 #include "modules/brittle/fracture/upload.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 namespace brittle {
@@ -87,16 +86,14 @@ public:
     }
 
     Result<std::vector<BodyFragment>> fragments() override {
-        if (!breaking_ || fragments_of_ == broken_) return fragments_;
-        auto read = readFragments(device_, breaking_->breakable(), slots_);
+        if (!breaking_) return std::vector<BodyFragment>();
+        auto read = fragments_.read(device_, breaking_->breakable(), slots_, broken_);
         if (!read) return read;
         for (BodyFragment& fragment : *read) {
             fragment.slot = bodyAsAdded(fragment.slot);
             fragment.origin = bodyAsAdded(fragment.origin);
         }
-        fragments_ = std::move(*read);
-        fragments_of_ = broken_;
-        return fragments_;
+        return read;
     }
 
     Result<std::vector<SurfaceMesh>> surfacesOf(std::span<const BodyFragment> fragments) override {
@@ -196,7 +193,7 @@ public:
         if (auto done = upload.send(device_); !done) return done;
         auto words = takeStock();
         if (!words) return words.error();
-        fragments_of_.reset(); // as many may have broken in another way
+        fragments_.forget(); // as many may have broken in another way
         return failureOf(*words);
     }
 
@@ -362,8 +359,7 @@ private:
     uint32_t heard_ = 0; // of what broke
     uint32_t slots_ = 0; // of bodies, that have ever held one
     uint32_t broken_ = 0, fragments_made_ = 0;
-    std::vector<BodyFragment> fragments_; // as they were when so many bodies had broken
-    std::optional<uint32_t> fragments_of_ = 0;
+    FragmentList fragments_;
 };
 
 } // namespace
