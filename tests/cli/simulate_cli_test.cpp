@@ -188,6 +188,34 @@ TEST_F(SimulateCli, ABallThatBreaksGivesWayToItsFragments) {
     EXPECT_NEAR(sum, volume, 1e-4 * volume);
 }
 
+// A ball of concrete, between the ground and a block of steel; its fragments break again while the block comes down on them.
+TEST_F(SimulateCli, NothingIsMissingWhileFragmentsBreakAgain) {
+    std::ofstream(path("twice.toml")) << "name = \"twice\"\neffects = [\"contacts\", \"impact_fracture\", \"refracture\"]\n"
+                                         "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius = 0.3\nplace = [0, 0.5, 0]\n"
+                                         "velocity = [0, -12, 0]\nmaterial = \"concrete\"\n"
+                                         "[[body]]\nname = \"block\"\nsize = [0.5, 0.5, 0.5]\nplace = [0, 2.5, 0]\n"
+                                         "velocity = [0, -12, 0]\ndensity = 7800\n[[collider]]\nname = \"ground\"\n";
+    const Outcome run = simulate({path("twice.toml"), "-o", path("a.glb"), "--seconds", "0.17", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    const size_t broken = report["broken"], fragments = report["fragments"];
+    EXPECT_GT(broken, 1u);
+    EXPECT_EQ(report["bodies_at_end"], 2 + fragments - broken);
+    const reference::MotionFile file = reference::readMotionFile(path("a.glb"));
+    EXPECT_TRUE(file.faults.empty()) << file.faults.front();
+    EXPECT_EQ(file.bodies.size(), 3 + fragments); // each is seen at a step at least
+    EXPECT_EQ(std::ranges::count_if(file.bodies, [](const auto& body) { return !body.there.back(); }), broken);
+    std::vector<double> volumes(file.times.size());
+    for (const reference::MovingBody& body : file.bodies) {
+        reference::Triangles all = body.outer;
+        all.insert(all.end(), body.inner.begin(), body.inner.end());
+        for (size_t k = 0; k < volumes.size(); ++k)
+            if (body.there[k]) volumes[k] += reference::volumeOf(all);
+    }
+    for (const double volume : volumes)
+        EXPECT_NEAR(volume, volumes[0], 1e-4 * volumes[0]);
+}
+
 TEST_F(SimulateCli, PicturesShowWhatIsLeftOfABall) {
     ASSERT_EQ(simulate({thrownBall(true), "-o", path("broken.png"), "--seconds", "0.1"}).exit_code, 0);
     ASSERT_EQ(simulate({thrownBall(false), "-o", path("whole.png"), "--seconds", "0.1"}).exit_code, 0);
