@@ -185,7 +185,7 @@ Breaking fragmentsToBreak(const char* model, uint32_t fragments, uint32_t sites)
     return breaking;
 }
 
-TEST(SmallBreaking, FragmentsBreakWithoutTheHostKnowingAnySize) {
+TEST(DeviceBreaking, FragmentsBreakWithoutTheHostKnowingAnySize) {
     const Breaking breaking = fragmentsToBreak("builtin:ring", 3, 12);
     BreakDevice device(breaking, planFor(breaking));
     const auto objects = static_cast<uint32_t>(breaking.records.size());
@@ -194,7 +194,7 @@ TEST(SmallBreaking, FragmentsBreakWithoutTheHostKnowingAnySize) {
     EXPECT_GE(out.status[COUNT_FRAGMENTS], breaking.sites);
 }
 
-TEST(SmallBreaking, TheSameRecordingBreaksAsMuchAsItIsAskedFor) {
+TEST(DeviceBreaking, TheSameRecordingBreaksAsMuchAsItIsAskedFor) {
     const Breaking breaking = fragmentsToBreak("builtin:icosphere", 4, 8);
     BreakDevice device(breaking, planFor(breaking));
     for (const uint32_t objects : {4u, 1u, 0u, 3u}) {
@@ -211,7 +211,7 @@ TEST(SmallBreaking, TheSameRecordingBreaksAsMuchAsItIsAskedFor) {
     }
 }
 
-TEST(SmallBreaking, EveryFragmentHasACollider) {
+TEST(DeviceBreaking, EveryFragmentHasACollider) {
     const Breaking breaking = fragmentsToBreak("builtin:ring", 3, 10);
     BreakDevice device(breaking, planFor(breaking, 26));
     const Outcome out = device.run(3);
@@ -226,7 +226,7 @@ void expectNothing(const Outcome& out, std::initializer_list<uint32_t> counts) {
         EXPECT_EQ(out.status[count], 0u) << count;
 }
 
-TEST(SmallBreaking, WithoutRoomForTheMeshNothingBreaks) {
+TEST(DeviceBreaking, WithoutRoomForTheMeshNothingBreaks) {
     const Breaking breaking = fragmentsToBreak("builtin:ring", 3, 12);
     brittle::BreakingRoom room = roomOf(breaking);
     room.mesh.edges = 20;
@@ -238,7 +238,7 @@ TEST(SmallBreaking, WithoutRoomForTheMeshNothingBreaks) {
     expectNothing(out, {COUNT_MESH_EDGES, COUNT_SITES, COUNT_NEIGHBORS, COUNT_POLYGONS, COUNT_FRAGMENTS, COUNT_EMITTED});
 }
 
-TEST(SmallBreaking, WithoutRoomInAPoolOfTheEventNothingBreaks) {
+TEST(DeviceBreaking, WithoutRoomInAPoolOfTheEventNothingBreaks) {
     const Breaking breaking = fragmentsToBreak("builtin:ring", 3, 12);
     BreakingEvent event = planFor(breaking);
     event.capacity.crossings = 16;
