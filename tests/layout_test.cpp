@@ -3,8 +3,8 @@
 // A struct of a kernel that has the name of a row below must have its members, in order, at its offsets; a struct that is
 // in an array must have the C++ size as its stride. A row that no kernel uses fails.
 #include "engine/reflection.h"
-#include "shaders-spirv/shared/breaking.h"
 #include "shaders-spirv/shared/body.h"
+#include "shaders-spirv/shared/breaking.h"
 #include "shaders-spirv/shared/collider.h"
 #include "shaders-spirv/shared/contact.h"
 #include "shaders-spirv/shared/fragment_record.h"
@@ -82,8 +82,8 @@ const std::vector<Row>& rows() {
           MEMBER(BreakableBody, balance), MEMBER(BreakableBody, turn)}},
         {"BrokenBody",
          sizeof(gpu::BrokenBody),
-         {MEMBER(BrokenBody, ids), MEMBER(BrokenBody, blow), MEMBER(BrokenBody, place), MEMBER(BrokenBody, other),
-          MEMBER(BrokenBody, along), MEMBER(BrokenBody, share)}},
+         {MEMBER(BrokenBody, ids), MEMBER(BrokenBody, blow), MEMBER(BrokenBody, place), MEMBER(BrokenBody, along),
+          MEMBER(BrokenBody, share)}},
         {"BodyShape", sizeof(gpu::BodyShape), {MEMBER(BodyShape, pieces), MEMBER(BodyShape, inverse_inertia)}},
         {"MaterialCard", sizeof(gpu::MaterialCard), {MEMBER(MaterialCard, elastic), MEMBER(MaterialCard, cracks)}},
         {"HullRecord",

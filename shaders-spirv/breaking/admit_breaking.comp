@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/breaking_laws.glsl"
+#include "lib/half_edge.glsl"
 #include "lib/quaternion.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
@@ -30,14 +31,13 @@ layout(push_constant) uniform Push {
     uint seed;
 };
 #include "lib/publish.glsl"
+#include "lib/takes_part.glsl"
 
 shared uint flags[GROUP_SIZE];
 shared uint listed[MOST_BREAKING];
 shared uint sites_of[MOST_BREAKING];
 shared uint admitted[MOST_BREAKING];
 shared uint found;
-
-const float kGridHalf = 8388608.0;
 
 uint sideOf(uint body, uint pair) { return memory[pair].ids.x == body ? BREAKS_A : BREAKS_B; }
 
@@ -47,7 +47,7 @@ bool isBroken(uint body) {
     if (pair == NO_INDEX) return false;
     uvec2 ids = memory[pair].ids.xy;
     uint other = ids.x == body ? ids.y : ids.x;
-    bool agreed = chosen[other] == pair || !(bodies[other].offset.w != 0.0 || breakable[other].surface.y > 0u);
+    bool agreed = chosen[other] == pair || !takesPart(other);
     return agreed && (blows[pair].sides.x & sideOf(body, pair)) != 0u;
 }
 
@@ -107,11 +107,11 @@ void admit() {
 // Grid steps in half a grid's edge are a power of two, and so is this: nothing is rounded but the way to the center.
 float unitOf(vec3 half_size) {
     int exponent;
-    float part = frexp(max(max(half_size.x, half_size.y), half_size.z), exponent);
+    frexp(max(max(half_size.x, half_size.y), half_size.z), exponent);
     return ldexp(1.0, -exponent);
 }
 
-ivec3 onGrid(vec3 place, vec4 center) { return ivec3(roundEven((place - center.xyz) * center.w * kGridHalf)) + ivec3(1 << 23); }
+ivec3 onGridOf(vec4 center, vec3 place) { return onGrid((place - center.xyz) * center.w); }
 
 // A quarter of all sites fall within the contact's radius (lib/draw_impact.glsl): so wide that cells there are no smaller than
 // the material's smallest.
@@ -131,10 +131,10 @@ void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord b
     BreakableBody b = breakable[body];
     vec4 center = vec4(0.5 * (b.low.xyz + b.high.xyz), unitOf(0.5 * (b.high.xyz - b.low.xyz)));
     vec3 own = turned(turnBack(bodies[body].turn), arm), place = turned(turnBack(b.turn), own) + b.balance.xyz;
-    ivec3 low = onGrid(b.low.xyz, center), high = onGrid(b.high.xyz, center), at = clamp(onGrid(place, center), low, high);
+    ivec3 low = onGridOf(center, b.low.xyz), high = onGridOf(center, b.high.xyz), at = clamp(onGridOf(center, place), low, high);
     vec3 far = vec3(max(at - low, high - at));
     float meters = max(contactRadiusOf(body, other, blow), leastRadiusFor(body, sites));
-    float radius = meters * center.w * kGridHalf, furthest = ceil(length(far)) + 1.0;
+    float radius = meters * center.w * kHalfEdge, furthest = ceil(length(far)) + 1.0;
     breaking[k].center = center;
     breaking[k].range.xyz = b.surface.xyz;
     breaking[k].impact = ivec4(at, int(clamp(radius, 1.0, furthest)));
@@ -153,7 +153,6 @@ void setBroken(uint k, uint body, uint sites) {
     broken[k].blow = vec4(blow.blow.xy, joules, 0.0);
     broken[k].share = vec4(joulesOf(blow), 0.0, 0.0, 0.0);
     broken[k].place = vec4(arm, blow.blow.w);
-    broken[k].other = vec4(is_b ? blow.arm_a.xyz : blow.arm_b.xyz, 0.0);
     broken[k].along = vec4(is_b ? -normal : normal, 0.0);
     setRecord(k, body, other, sites, arm, blow);
 }

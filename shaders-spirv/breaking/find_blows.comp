@@ -24,6 +24,7 @@ layout(push_constant) uniform Push {
     float duration; // of the step, s
 };
 #include "lib/meeting.glsl"
+#include "lib/takes_part.glsl"
 
 bool canBreak(uint body) {
     return breakable[body].surface.y > 0u && float(steps[STEPS_MADE]) * duration >= breakable[body].form.w;
@@ -74,8 +75,6 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out BlowRecord record) {
     record.blow = vec4(1.0 / yield_, -then, 0.5 * then * then / yield_, min(apart / (mean * duration), 1.0));
     return true;
 }
-
-bool takesPart(uint body) { return bodies[body].offset.w != 0.0 || breakable[body].surface.y > 0u; }
 
 void main() {
     uint p = flatIndex();

@@ -3,7 +3,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
-#include "lib/tile.glsl"
 #include "shared/fragment_record.h"
 
 FLAT_KERNEL;
@@ -12,10 +11,11 @@ READS(1, FragmentRecord, fragments);
 READS(2, ivec4, sites);
 WRITES(3, uint, owners);
 WRITES(4, uint, order);
+#include "lib/whose_fragment.glsl"
 
 void main() {
     uint f = flatIndex();
     if (f >= counts[COUNT_FRAGMENTS]) return;
-    owners[f] = tileNumber(sites[fragments[f].fate.z].xyz);
+    owners[f] = objectOfFragment(f);
     order[f] = f;
 }

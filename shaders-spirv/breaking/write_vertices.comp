@@ -2,6 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/half_edge.glsl"
 #include "lib/tile.glsl"
 
 FLAT_KERNEL;
@@ -13,8 +14,6 @@ WRITES(4, ivec4, grid_vertices);
 WRITES(5, uint, args);
 layout(push_constant) uniform Push { uint triangle_room; };
 #include "lib/publish.glsl"
-
-const float kScale = 8388608.0; // grid steps in half a grid's edge
 
 // Of both kinds of triangles, and their corners.
 void publishTriangles() {
@@ -31,5 +30,5 @@ void main() {
     if (vertex_numbers[c + 1u] == v) return;
     vec3 p = uintBitsToFloat(uvec3(corners[4u * c], corners[4u * c + 1u], corners[4u * c + 2u]));
     for (uint k = 0u; k < 3u; k++) mesh_positions[3u * v + k] = p[k];
-    grid_vertices[v] = ivec4(tileAt(corners[4u * c + 3u]) + ivec3(roundEven(p * kScale)) + ivec3(1 << 23), 0);
+    grid_vertices[v] = ivec4(tileAt(corners[4u * c + 3u]) + onGrid(p), 0);
 }

@@ -1,5 +1,5 @@
-// What breaks in a step, while it is made ready to be broken. Surfaces of bodies lie in the scene's pool of vertices, three for each
-// triangle: first the body's own surface, then faces of earlier cuts. Corners that share a place are one vertex, and edges
+// What breaks in a step, while it is made ready to be broken. Surfaces of bodies lie in the scene's pool of vertices, three for
+// each triangle: first the body's own surface, then faces of earlier cuts. Corners that share a place are one vertex, and edges
 // that share their ends one edge, as the host has them of a model (modules/brittle/mesh/topology.h).
 #ifndef BREAKING_H
 #define BREAKING_H
@@ -11,8 +11,9 @@ GPU_NAMESPACE_BEGIN
 
 // Of an object that breaks, in the order of their tiles.
 struct BreakingRecord {
-    vec4 center; // of its surface's box, in the frame of its vertices; w: units of half a grid's edge in a unit of theirs, a power of two
-    uvec4 range; // first vertex in the pool, corners of its own surface, of earlier cuts; its first corner of all that break
+    vec4 center;  // of its surface's box, in the frame of its vertices; w: units of half a grid's edge in a unit of theirs, a
+                  // power of two
+    uvec4 range;  // first vertex in the pool, corners of its own surface, of earlier cuts; its first corner of all that break
     ivec4 impact; // where it is hit, on its grid; w: contact radius, grid steps, at least 1
     ivec4 low;    // of its surface on its grid; w: to the furthest place of it from the impact
     ivec4 high;   // w: seed of its draws
@@ -22,16 +23,18 @@ struct BreakingRecord {
 // What of a body there is to break, for every slot of a body. Its surface keeps the frame in which it was made, however often
 // what it bounds breaks: turning its vertices would round them.
 struct BreakableBody {
-    uvec4 surface; // first vertex in the pool, corners of its own surface, of earlier cuts; material, NO_INDEX for what does not break
+    uvec4 surface; // first vertex in the pool, corners of its own surface, of earlier cuts; material, NO_INDEX for what does
+                   // not break
     vec4 form;     // volume, all of its surface, strength; w: s, of the world's time until which no blow breaks it
     vec4 low;      // of its surface, frame of its vertices; w: of a fragment the slot of the first body that it was a part of
     vec4 high;
-    vec4 balance;  // center of mass, frame of its vertices; w: the step that it was made in, counted from 1, 0 for what has always been
-    vec4 turn;     // from the frame of its vertices to its own axes
+    vec4 balance; // center of mass, frame of its vertices; w: the step that it was made in, counted from 1, 0 for what has
+                  // always been
+    vec4 turn;    // from the frame of its vertices to its own axes
 };
 
-// A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so that
-// who pays for its cracks is certain; the others wait for a step, as does what there is no room for.
+// A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so
+// that who pays for its cracks is certain; the others wait for a step, as does what there is no room for.
 struct BlowRecord {
     uvec4 sides; // BREAKS_*, 0 for what breaks nothing
     vec4 blow;   // effective mass, speed of meeting, its energy; w: share of the step that is over when they meet
@@ -47,7 +50,6 @@ struct BrokenBody {
     uvec4 ids;  // body, the one that it was hit by, pair, 1 where it is the pair's B
     vec4 blow;  // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took, once it is known
     vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
-    vec4 other; // the same place from the other's
     vec4 along; // normal, from the body to the other
     vec4 share; // J, of the blow's energy that this body may spend, all of it
 };
@@ -60,9 +62,9 @@ struct CrackLedger {
 
 // What the host is told of it. Of two that break each other, the first one's energies are those of both.
 struct BreakEvent {
-    uvec4 what;    // step, counted from 1; body, what hit it, its material
-    uvec4 made;    // fragments; 0 where the body stayed whole, for want of room
-    ivec4 sector;  // of the place of the blow
+    uvec4 what;   // step, counted from 1; body, what hit it, its material
+    uvec4 made;   // fragments; 0 where the body stayed whole, for want of room
+    ivec4 sector; // of the place of the blow
     vec4 offset;
     vec4 along;    // normal, from the body to the other
     vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
@@ -70,9 +72,9 @@ struct BreakEvent {
 };
 #define BREAK_EVENTS 1024 /* that are kept */
 
-// Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of the
-// surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools at
-// that many times its first face.
+// Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of
+// the surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools
+// at that many times its first face.
 #define ROOM_BODY 0
 #define ROOM_PIECE 1
 #define ROOM_FACES 2
@@ -88,7 +90,8 @@ struct BreakEvent {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 96 && sizeof(gpu::BlowRecord) == 64);
+static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
+              sizeof(gpu::BlowRecord) == 64);
 static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 112);
 #endif
 #endif

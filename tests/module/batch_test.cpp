@@ -50,19 +50,6 @@ std::vector<FractureResult> together(const std::vector<Broken>& objects, const F
     return results ? std::move(*results) : std::vector<FractureResult>();
 }
 
-using Place = std::array<float, 3>;
-
-// Of every cell, all places of corners of its fragments, bit for bit.
-std::map<uint32_t, std::set<Place>> placesByCell(const FractureResult& result) {
-    std::map<uint32_t, std::set<Place>> places;
-    for (const brittle::Fragment& f : result.fragments.fragments)
-        for (uint32_t k = 0; k < f.vertex_count; ++k) {
-            const auto& p = result.fragments.vertices[f.first_vertex + k].position;
-            places[f.cell].insert({p[0], p[1], p[2]});
-        }
-    return places;
-}
-
 std::multiset<double> volumes(const FractureResult& result) {
     std::multiset<double> all;
     for (const brittle::Fragment& f : result.fragments.fragments)
@@ -73,7 +60,7 @@ std::multiset<double> volumes(const FractureResult& result) {
 void expectSame(const Broken& object, const FractureResult& result) {
     EXPECT_EQ(result.sites, object.alone.sites);
     EXPECT_EQ(result.fragments.fragments.size(), object.alone.fragments.fragments.size());
-    EXPECT_EQ(placesByCell(result), placesByCell(object.alone));
+    EXPECT_EQ(whole::placesByCell(result), whole::placesByCell(object.alone));
     const auto here = volumes(result), there = volumes(object.alone);
     const double whole = brittle::measureMesh(object.model.prepared.mesh).volume;
     EXPECT_TRUE(std::ranges::equal(here, there, [&](double a, double b) { return std::abs(a - b) <= 1e-6 * whole; }));

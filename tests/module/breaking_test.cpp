@@ -146,19 +146,6 @@ std::vector<FractureResult> partsOf(const Breaking& breaking, const Outcome& out
     return brittle::partResult(batch, out.all, out.site_objects);
 }
 
-using Place = std::array<float, 3>;
-
-// Of every cell, all places of corners of its fragments, bit for bit.
-std::map<uint32_t, std::set<Place>> placesByCell(const FractureResult& result) {
-    std::map<uint32_t, std::set<Place>> places;
-    for (const brittle::Fragment& f : result.fragments.fragments)
-        for (uint32_t k = 0; k < f.vertex_count; ++k) {
-            const auto& p = result.fragments.vertices[f.first_vertex + k].position;
-            places[f.cell].insert({p[0], p[1], p[2]});
-        }
-    return places;
-}
-
 // Each object's fragments keep their contract, and are those that the host makes of the same sites.
 void expectAsTheHostBreaks(const Breaking& breaking, const Outcome& out, uint32_t objects) {
     ASSERT_EQ(out.status[STATUS_FAILED], 0u);
@@ -175,7 +162,7 @@ void expectAsTheHostBreaks(const Breaking& breaking, const Outcome& out, uint32_
         whole::expectContract(whole::modelFrom(breaking.set, k), bare);
         EXPECT_EQ(parts[k].sites, (*host)[k].sites);
         EXPECT_EQ(parts[k].fragments.fragments.size(), (*host)[k].fragments.fragments.size());
-        EXPECT_EQ(placesByCell(parts[k]), placesByCell((*host)[k]));
+        EXPECT_EQ(whole::placesByCell(parts[k]), whole::placesByCell((*host)[k]));
     }
 }
 

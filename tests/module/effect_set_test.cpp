@@ -1,5 +1,6 @@
 // Effects: what a scene lists, what that needs, and what air does.
 #include "modules/brittle/dynamics/scene_contents.h"
+#include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/effects/effect_set.h"
 #include "modules/brittle/scene/check_scene.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"

@@ -1,5 +1,6 @@
 // Bodies in motion as a GLB, read back by a reader of its own; and surfaces of bodies, that they are what was broken.
 #include "modules/brittle/dynamics/scene_contents.h"
+#include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/export/motion_glb.h"
 #include "modules/brittle/mesh/import.h"
 #include "modules/brittle/mesh/measures.h"

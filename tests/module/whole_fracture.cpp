@@ -150,4 +150,14 @@ void expectContractAt(const Model& model, const std::vector<brittle::Double3>& s
     expectContract(model, options);
 }
 
+std::map<uint32_t, std::set<std::array<float, 3>>> placesByCell(const brittle::FractureResult& result) {
+    std::map<uint32_t, std::set<std::array<float, 3>>> places;
+    for (const brittle::Fragment& f : result.fragments.fragments)
+        for (uint32_t k = 0; k < f.vertex_count; ++k) {
+            const auto& p = result.fragments.vertices[f.first_vertex + k].position;
+            places[f.cell].insert({p[0], p[1], p[2]});
+        }
+    return places;
+}
+
 } // namespace whole

@@ -7,7 +7,10 @@
 #include "modules/brittle/mesh/prepare.h"
 #include "tests/reference/geometry.h"
 
+#include <array>
 #include <initializer_list>
+#include <map>
+#include <set>
 #include <string>
 
 namespace whole {
@@ -34,5 +37,8 @@ void expectContract(const Model& model, const brittle::FractureResult& result);
 void expectContractOf(const Model& model, std::initializer_list<uint32_t> site_counts);
 // Of sites given by hand.
 void expectContractAt(const Model& model, const std::vector<brittle::Double3>& sites);
+
+// Of every cell, all places of corners of its fragments, bit for bit.
+std::map<uint32_t, std::set<std::array<float, 3>>> placesByCell(const brittle::FractureResult& result);
 
 } // namespace whole

@@ -1,6 +1,7 @@
 #include "tests/support/scene_run.h"
 
 #include "modules/brittle/dynamics/pose.h"
+#include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/engine/test_device.h"
 

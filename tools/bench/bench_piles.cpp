@@ -1,6 +1,7 @@
 // Piles of hulls: milliseconds a step, what each stage has of it, and how the pile lies in the end, ours and Bullet's.
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/scene_contents.h"
+#include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "tests/support/body_overlaps.h"

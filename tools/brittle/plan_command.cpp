@@ -1,4 +1,5 @@
 // brittle plan: what a step of a scene is made of, like a database's EXPLAIN.
+#include "modules/brittle/dynamics/scene_settings.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/plan_report.h"
 #include "tools/brittle/progress.h"

@@ -1,5 +1,6 @@
 #include "tools/brittle/simulation.h"
 
+#include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/mesh/format.h"
 #include "tools/brittle/progress.h"
 #include "tools/brittle/scene_source.h"

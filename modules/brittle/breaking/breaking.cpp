@@ -92,7 +92,7 @@ public:
     void recordBlows(const Step& s) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("blows");
-        s.record.clear({p_.hardest, event_.b.counts, event_.b.args, p_.owner_start, p_.adopted});
+        s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
         s.record.commands().fill(p_.chosen, NO_INDEX);
         const gpu::vec4 gravity = solverPush(s).gravity;
         const float find[] = {gravity.x, gravity.y, gravity.z, gravity.w, static_cast<float>(s.settings.dt)};
@@ -129,12 +129,12 @@ public:
         return record.status();
     }
 
-    Result<Told> tell(uint32_t& heard) override {
+    Result<Breaks> tell(uint32_t& heard) override {
         uint32_t told = 0;
         const Fetch count[] = {{l_.told.sub(0, 4), &told, 4}};
         if (auto read = fetch(device_, count); !read) return read.error();
         const uint32_t fresh = told - heard, kept = std::min<uint32_t>(fresh, BREAK_EVENTS);
-        Told answer = {{}, fresh - kept};
+        Breaks answer = {{}, fresh - kept};
         heard = told;
         if (kept == 0) return answer;
         std::vector<gpu::BreakEvent> ring(BREAK_EVENTS);
@@ -148,10 +148,8 @@ public:
     std::vector<BufferView> stateViews() const override {
         return {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges, l_.told, l_.ring};
     }
-    const std::vector<NamedBuffer>& buffers() const override { return named_; }
     BufferView surfaceVertices() const override { return l_.surface_vertices; }
     BufferView breakable() const override { return l_.breakable; }
-    BufferView eventCounts() const override { return event_.b.counts; }
 
 private:
     GatherRoom gatherRoomFor() const { return roomFor(room_.step_bodies, room_.step_triangles); }
@@ -268,7 +266,6 @@ private:
     Lasting l_;
     Passing p_;
     PoolBuffers pools_;
-    std::vector<NamedBuffer> named_;
 };
 
 } // namespace

@@ -24,19 +24,13 @@ public:
     virtual void recordBlows(const Step& step) = 0;
     virtual engine::Result<void> recordEvent(const Step& step) = 0;
 
-    // Since `heard`, which is brought up to now; `lost`: how many more there were than the device keeps.
-    struct Told {
-        std::vector<gpu::BreakEvent> events;
-        uint32_t lost = 0;
-    };
-    virtual engine::Result<Told> tell(uint32_t& heard) = 0;
+    // Since `heard`, which is brought up to now.
+    virtual engine::Result<Breaks> tell(uint32_t& heard) = 0;
     // All that the next step depends on, beside what the world has.
     virtual std::vector<engine::BufferView> stateViews() const = 0;
-    virtual const std::vector<NamedBuffer>& buffers() const = 0;
     // SceneVertices, three a triangle, of all surfaces; gpu::BreakableBody, a body each.
     virtual engine::BufferView surfaceVertices() const = 0;
     virtual engine::BufferView breakable() const = 0;
-    virtual engine::BufferView eventCounts() const = 0;
 };
 
 } // namespace brittle

@@ -96,7 +96,6 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
     pools.objects = fragments + static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
     pools.returned = pools.owners = room.step_bodies;
-    pools.requests = 2 * room.step_sites + 256;
     for (size_t k = 0; k < POOLS; ++k)
         room.free[k] = {{taken[k], pools.capacity[k] - taken[k]}};
     if (auto state = poolsWith(pools, room.free); !state) return state.error();

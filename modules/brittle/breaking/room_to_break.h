@@ -23,6 +23,12 @@ struct RoomToBreak {
     FreeLists free; // before anything breaks
 };
 
+// What has broken since a host last asked, in order; `lost`: how many more there were than the device keeps.
+struct Breaks {
+    std::vector<gpu::BreakEvent> events;
+    uint32_t lost = 0;
+};
+
 // Every number given. Errors: Capacity for more than pools can hold (world_pools.h).
 engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget);
 

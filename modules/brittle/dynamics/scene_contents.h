@@ -25,10 +25,4 @@ engine::Result<WorldContents> contentsOf(const SceneDescription& scene, const st
 engine::Result<WorldContents> contentsOfBroken(const SceneDescription& scene, const FragmentSet& fragments,
                                                WorldSurfaces* surfaces = nullptr);
 
-// Effects that a scene neither lists nor needs for those that it does are off. Errors: BadInput, for what the world has not got
-// yet.
-engine::Result<StepSettings> settingsOf(const SceneDescription& scene);
-// Effects that the scene lists and the world has not got yet: it goes on without them.
-std::vector<std::string> effectsWithout(const SceneDescription& scene);
-
 } // namespace brittle

@@ -37,7 +37,8 @@ Result<void> checkSettings(const StepSettings& s) {
         return refuse("sleep below a speed or after a time that is negative or no number");
     if (!(s.air_density >= 0 && s.air_density <= 1e4) || !(s.drag_coefficient >= 0 && s.drag_coefficient <= 100))
         return refuse("a density of the air or a drag coefficient that is out of range; give 0 to 1e4 kg/m3, 0 to 100");
-    if (s.impact_fracture && !s.ccd) return refuse("bodies break only where fast ones are held back: ccd comes with impact_fracture");
+    if (s.impact_fracture && !s.ccd)
+        return refuse("bodies break only where fast ones are held back: ccd comes with impact_fracture");
     if (!(s.blow_time >= 0 && s.blow_time <= 1e3)) return refuse("a blow of that many seconds; give 0 to 1000");
     if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
     return {};

@@ -125,7 +125,7 @@ public:
             event.what.y = bodyAsAdded(event.what.y);
             event.what.z = bodyAsAdded(event.what.z);
         }
-        return Breaks{std::move(told->events), told->lost};
+        return told;
     }
 
     Result<std::vector<std::array<uint32_t, 2>>> pairs() override {
@@ -362,6 +362,16 @@ private:
     FragmentList fragments_;
 };
 
+// Where bodies of theirs may break, gives the contents slots for what they break into; else nothing.
+Result<std::optional<RoomToBreak>> makeRoomToBreak(WorldContents& contents, const StepSettings& settings,
+                                                   const BreakingBudget& budget) {
+    if (!effectsOf(settings).has(Effect::ImpactFracture) || contents.breakable.empty()) return std::optional<RoomToBreak>();
+    auto room = roomToBreak(contents, budget);
+    if (!room) return room.error();
+    contents = withRoom(contents, *room);
+    return std::optional(std::move(*room));
+}
+
 } // namespace
 
 Result<std::unique_ptr<World>> World::create(engine::Device& device, const WorldContents& contents,
@@ -372,14 +382,8 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     if (contents.bodies.empty()) return Error{ErrorCode::BadInput, "a world without bodies; add at least one"};
     BodyOrder order = orderById(contents);
     WorldContents sorted = inOrder(contents, order);
-    const bool breaks = effectsOf(settings).has(Effect::ImpactFracture) && !sorted.breakable.empty();
-    RoomToBreak to_break;
-    if (breaks) {
-        auto room = roomToBreak(sorted, budget.breaking);
-        if (!room) return room.error();
-        to_break = std::move(*room);
-        sorted = withRoom(sorted, to_break);
-    }
+    const auto to_break = makeRoomToBreak(sorted, settings, budget.breaking);
+    if (!to_break) return to_break.error();
     const uint64_t chosen =
         std::max<uint64_t>({kLeastPairs, uint64_t{kPairsPerPiece} * sorted.pieces.size(), 2 * sorted.siblings.size()});
     const auto room = budget.pairs != 0 ? budget.pairs : static_cast<uint32_t>(std::min<uint64_t>(chosen, mostPairs(device)));
@@ -389,8 +393,8 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     given.group_size = group_size;
     auto world =
         std::make_unique<DeviceWorld>(device, std::move(order), std::move(sorted), std::move(*buffers), settings, given);
-    if (breaks)
-        if (auto made = world->makeBreakable(to_break); !made) return made.error();
+    if (*to_break)
+        if (auto made = world->makeBreakable(**to_break); !made) return made.error();
     if (auto recorded = world->record(); !recorded) return recorded.error();
     return std::unique_ptr<World>(std::move(world));
 }

@@ -59,12 +59,7 @@ public:
     // In the frames of their bodies. `fragments` are of the world as it is now.
     virtual engine::Result<std::vector<SurfaceMesh>> surfacesOf(std::span<const BodyFragment> fragments) = 0;
     virtual engine::Result<WorldCounts> counts() = 0; // of the last step
-    // What has broken since it was last asked, in order, with the effect `events`; the device keeps the last 1024, and how many
-    // were lost is told. Bodies by their index as added, fragments by their slots.
-    struct Breaks {
-        std::vector<gpu::BreakEvent> events;
-        uint32_t lost = 0;
-    };
+    // With the effect `events`; the device keeps the last 1024. Bodies by their index as added, fragments by their slots.
     virtual engine::Result<Breaks> breaks() = 0;
     // Pieces whose boxes met in the last step, the lower one first, in order. None while all sleep.
     virtual engine::Result<std::vector<std::array<uint32_t, 2>>> pairs() = 0;

@@ -1,0 +1,50 @@
+#include "modules/brittle/dynamics/scene_settings.h"
+
+namespace brittle {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::Result;
+
+Result<StepSettings> settingsOf(const SceneDescription& scene) {
+    const auto effects = resolve(scene.effects);
+    if (!effects) return effects.error();
+    const auto has = [&](Effect effect) { return effects->set.has(effect); };
+    StepSettings s;
+    s.gravity = has(Effect::Gravity) ? scene.gravity : Double3{0, 0, 0};
+    s.dt = scene.step.dt;
+    s.substeps = scene.step.substeps;
+    s.iterations = scene.step.iterations;
+    s.contacts = has(Effect::Contacts);
+    s.friction = has(Effect::Friction);
+    s.restitution = has(Effect::Restitution);
+    s.ccd = has(Effect::Ccd);
+    s.sleeping = has(Effect::Sleeping);
+    s.drag = has(Effect::Drag);
+    s.impact_fracture = has(Effect::ImpactFracture);
+    s.refracture = has(Effect::Refracture);
+    s.events = has(Effect::Events);
+    s.air_density = scene.air_density;
+    s.drag_coefficient = scene.drag_coefficient;
+    s.contact_hertz = scene.step.contact_hertz;
+    s.contact_damping = scene.step.contact_damping;
+    s.push_out = scene.step.push_out;
+    s.margin = scene.step.margin;
+    s.recycling = scene.step.recycling;
+    s.fixed_axes = scene.step.axes == AxisKind::Fixed ? 26 : 0;
+    if (scene.step.solver == SolverKind::Hard)
+        return Error{ErrorCode::BadInput, "the scene asks for the hard solver, which there is not yet; leave step.solver out"};
+    return s;
+}
+
+std::vector<std::string> effectsWithout(const SceneDescription& scene) {
+    constexpr EffectSet kThere = {Effect::Gravity,    Effect::Contacts, Effect::Friction, Effect::Restitution,
+                                  Effect::Ccd,        Effect::Sleeping, Effect::Drag,     Effect::ImpactFracture,
+                                  Effect::Refracture, Effect::Events};
+    std::vector<std::string> without;
+    for (const std::string& name : scene.effects)
+        if (const auto effect = effectOf(name); effect && !kThere.has(*effect)) without.push_back(name);
+    return without;
+}
+
+} // namespace brittle

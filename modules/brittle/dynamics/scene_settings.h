@@ -1,0 +1,18 @@
+// From a scene as it is described to how its world is stepped.
+#pragma once
+
+#include "modules/brittle/dynamics/step_settings.h"
+#include "modules/brittle/scene/scene_description.h"
+
+#include <string>
+#include <vector>
+
+namespace brittle {
+
+// Effects that a scene neither lists nor needs for those that it does are off. Errors: BadInput, for what the world has not got
+// yet.
+engine::Result<StepSettings> settingsOf(const SceneDescription& scene);
+// Effects that the scene lists and the world has not got yet: it goes on without them.
+std::vector<std::string> effectsWithout(const SceneDescription& scene);
+
+} // namespace brittle
