@@ -53,6 +53,9 @@ public:
     const VolkDeviceTable& vk() const { return table_; }
     VkPipelineCache pipelineCache() const { return pipeline_cache_; }
     MemoryPool& memory() { return *memory_; }
+    // Bytes that hosts have asked to be copied from the device to where they can read them, pictures left out.
+    uint64_t readBackBytes() const { return read_back_bytes_; }
+    void countReadBack(uint64_t bytes) { read_back_bytes_ += bytes; }
 
     // Safe from any thread; both queues may be one.
     Result<void> submit(const Queue& queue, VkCommandBuffer commands, VkFence fence);
@@ -85,6 +88,7 @@ private:
     VolkDeviceTable table_{};
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
     std::unique_ptr<MemoryPool> memory_;
+    uint64_t read_back_bytes_ = 0;
     std::mutex submit_mutex_;
 };
 

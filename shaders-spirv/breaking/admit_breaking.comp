@@ -33,6 +33,8 @@ layout(push_constant) uniform Push {
 #include "lib/publish.glsl"
 #include "lib/takes_part.glsl"
 
+const float kForEver = 3e38; // s
+
 shared uint flags[GROUP_SIZE];
 shared uint listed[MOST_BREAKING];
 shared uint sites_of[MOST_BREAKING];
@@ -83,20 +85,25 @@ uint fragmentsOf(uint body) {
 
 uint trianglesOf(uint body) { return (breakable[body].surface.y + breakable[body].surface.z) / 3u; }
 
-// In order, by one lane: there are few.
+// In order, by one lane: there are few. Of what no step has room for, one a step is told: it stands behind what breaks.
 void admit() {
+    uint unfit = NO_INDEX;
     uvec3 left = uvec3(min(most_bodies, uint(MOST_BREAKING)), most_triangles, most_sites), taken = uvec3(0u);
     for (uint k = 0u; k < found; k++) {
         uvec3 asked = uvec3(1u, trianglesOf(listed[k]), sites_of[k]);
         bool fits = all(lessThanEqual(taken + asked, left)), never = any(greaterThan(asked, left));
-        if (never) breakable[listed[k]].surface.y = 0u;
-        if (never) counts[STATUS_TOO_LARGE] = listed[k] + 1u;
+        if (never) unfit = k;
         admitted[k] = fits ? taken.x : NO_INDEX;
         if (fits) {
             breaking[taken.x].range.w = 3u * taken.y;
             breaking[taken.x].sites = uvec4(taken.z, asked.z, 0u, 0u);
             taken += asked;
         }
+    }
+    if (unfit != NO_INDEX && taken.x < uint(MOST_BREAKING)) {
+        breakable[listed[unfit]].form.w = kForEver;
+        admitted[unfit] = taken.x;
+        counts[STATUS_TOO_LARGE] = 1u;
     }
     publishCount(COUNT_BREAKING, taken.x, NO_INDEX);
     publishCount(COUNT_SOUP_TRIANGLES, taken.y, NO_INDEX);

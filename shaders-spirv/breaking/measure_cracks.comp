@@ -18,7 +18,7 @@ READS(4, MaterialCard, cards);
 READS(5, uint, owners); // sorted
 READS(6, uint, order);
 READS(7, FragmentRecord, fragments);
-WRITES(8, float, cracks); // m2; 0 for what stays whole
+WRITES(8, float, cracks); // m2; below 0 where the blow cannot pay for it, 0 where there is one piece
 WRITES(9, uint, owner_start);
 #define SORTED owners
 #define SORTED_COUNT COUNT_FRAGMENTS
@@ -43,7 +43,7 @@ void main() {
     float total = 0.0;
     for (uint j = 0u; j < GROUP_SIZE; j++) total += sums[j];
     float unit = 1.0 / breaking[k].center.w, area = 0.5 * total * unit * unit;
-    cracks[k] = isAffordable(k, area) ? area : 0.0;
+    cracks[k] = isAffordable(k, area) ? area : -area;
     owner_start[k] = first;
     if (k + 1u == counts[COUNT_BREAKING]) owner_start[k + 1u] = last;
 }

@@ -27,10 +27,14 @@ layout(push_constant) uniform Push {
 };
 #include "lib/body_way.glsl"
 
-bool isServed(uint k) {
-    bool made = counts[STATUS_FAILED] == 0u && counts[COUNT_FRAGMENTS] > 0u;
-    return made && lacking[k] == uvec4(0u) && cracks[k] > 0.0;
+// 0 where it becomes its fragments.
+uint whyWhole(uint k) {
+    if (counts[STATUS_FAILED] != 0u || counts[COUNT_FRAGMENTS] == 0u) return uint(WHOLE_FAILED);
+    if (cracks[k] <= 0.0) return uint(cracks[k] < 0.0 ? WHOLE_TOO_DEAR : WHOLE_ONE_PIECE);
+    return lacking[k] == uvec4(0u) ? 0u : uint(WHOLE_NO_ROOM);
 }
+
+bool isServed(uint k) { return whyWhole(k) == 0u; }
 
 // The other object of the same pair, NO_INDEX where there is none.
 uint partnerOf(uint k) {
@@ -91,9 +95,9 @@ void pay(uint k, float joules) {
 void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_BREAKING]) return;
-    bool served = isServed(k);
-    ledger[k] = CrackLedger(uvec4(served ? 1u : 0u, 0u, 0u, 0u), vec4(0.0));
-    if (!served) {
+    uint why = whyWhole(k);
+    ledger[k] = CrackLedger(uvec4(why, 0u, 0u, 0u), vec4(0.0));
+    if (why != 0u) {
         breakable[broken[k].ids.x].form.w = float(steps[STEPS_MADE]) * duration + pause;
         return;
     }

@@ -19,26 +19,39 @@ READS(5, BreakableBody, breakable);
 READS(6, uint, steps);
 UPDATES(7, uint, told); // how many so far
 WRITES(8, BreakEvent, ring);
+READS(9, uvec4, lacking);
+
+// The first count of the event that was more than there is room for, and how much.
+uvec2 firstNeeded() {
+    for (uint k = 0u; k < uint(COUNT_TOTAL); k++)
+        if (counts[STATUS_NEEDED + k] != 0u) return uvec2(k, counts[STATUS_NEEDED + k]);
+    return uvec2(0u);
+}
+
+// What no step has room for stands behind all that were tried.
+uint whyWhole(uint k) { return k < counts[COUNT_BREAKING] ? ledger[k].outcome.x : uint(WHOLE_TOO_LARGE); }
 
 BreakEvent eventOf(uint k) {
     BrokenBody hit = broken[k];
     uint body = hit.ids.x;
-    bool broke = ledger[k].outcome.x != 0u;
+    uint why = whyWhole(k);
     vec3 offset = bodies[body].offset.xyz + hit.place.xyz;
     ivec3 sectors = sectorsIn(offset);
     BreakEvent event;
     event.what = uvec4(steps[STEPS_MADE], body, hit.ids.y, breakable[body].surface.w);
-    event.made = uvec4(broke ? owner_start[k + 1u] - owner_start[k] : 0u, 0u, 0u, 0u);
+    event.made = uvec4(why == 0u ? owner_start[k + 1u] - owner_start[k] : 0u, why, why == WHOLE_FAILED ? firstNeeded() : uvec2(0u));
+    event.lacked = why == WHOLE_NO_ROOM ? lacking[k] : uvec4(0u);
     event.sector = ivec4(bodies[body].sector.xyz + sectors, 0);
     event.offset = vec4(offsetWithin(offset, sectors), 0.0);
     event.along = hit.along;
     event.blow = hit.blow;
-    event.energies = ledger[k].energies;
+    event.energies = why == 0u ? ledger[k].energies : vec4(0.0);
     return event;
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x, first = told[0], count = min(counts[COUNT_BREAKING], uint(MOST_BREAKING));
+    uint lane = gl_LocalInvocationID.x, first = told[0];
+    uint count = min(counts[COUNT_BREAKING] + counts[STATUS_TOO_LARGE], uint(MOST_BREAKING));
     for (uint k = lane; k < count; k += GROUP_SIZE) ring[(first + k) % BREAK_EVENTS] = eventOf(k);
     barrier();
     if (lane == 0u) told[0] = first + count;

@@ -56,14 +56,16 @@ struct BrokenBody {
 
 // What a blow has cost, in the order of BrokenBodies; with the first of two that break each other, for both.
 struct CrackLedger {
-    uvec4 outcome; // 1 where the body became its fragments
+    uvec4 outcome; // x: WHOLE_*, why the body did not become its fragments; 0 where it did
     vec4 energies; // of the motion of both before and after, J that their cracks cost; w: m2 of this body's cracks
 };
 
 // What the host is told of it. Of two that break each other, the first one's energies are those of both.
 struct BreakEvent {
     uvec4 what;   // step, counted from 1; body, what hit it, its material
-    uvec4 made;   // fragments; 0 where the body stayed whole, for want of room
+    uvec4 made;   // fragments, 0 where the body stayed whole; WHOLE_*, why it did; of WHOLE_FAILED the count of fracture that
+                  // there was no room for and how much it would have been, 0 and 0 where it was something else
+    uvec4 lacked; // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
     ivec4 sector; // of the place of the blow
     vec4 offset;
     vec4 along;    // normal, from the body to the other
@@ -71,6 +73,13 @@ struct BreakEvent {
     vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack
 };
 #define BREAK_EVENTS 1024 /* that are kept */
+
+// Why a body that was hit hard enough stays whole.
+#define WHOLE_NO_ROOM 1   /* pools of the world are full */
+#define WHOLE_TOO_DEAR 2  /* its cells have more faces between them than the blow can pay for */
+#define WHOLE_ONE_PIECE 3 /* all of it is one cell's */
+#define WHOLE_FAILED 4    /* the step's event of fracture had no room for all that it met, or met what it cannot cut */
+#define WHOLE_TOO_LARGE 5 /* no step has room for its surface or its sites: it never breaks */
 
 // Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of
 // the surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools
@@ -92,6 +101,6 @@ GPU_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
               sizeof(gpu::BlowRecord) == 64);
-static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 112);
+static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128);
 #endif
 #endif

@@ -26,69 +26,69 @@
 // Indices into the buffer of counts; the dispatch arguments of a count have the same index.
 #define COUNT_SITES 0
 #define COUNT_NEIGHBORS 1
-#define COUNT_CORNERS 2          /* corners of all cells, each Voronoi vertex up to four times */
+#define COUNT_CORNERS 2 /* corners of all cells, each Voronoi vertex up to four times */
 #define COUNT_VORONOI_VERTICES 3
 #define COUNT_VORONOI_EDGES 4
 #define COUNT_MIXED_EDGES 5
 #define COUNT_CROSSINGS 6
 #define COUNT_MIXED_TRIANGLES 7
 #define COUNT_PAIRS 8
-#define COUNT_ROUND 9            /* pairs of the current round */
+#define COUNT_ROUND 9 /* pairs of the current round */
 #define COUNT_POLYGONS 10
 #define COUNT_SIDES 11
 #define COUNT_TRIPLES 12
 #define COUNT_FAN_TRIANGLES 13
-#define COUNT_POINTS 14          /* mesh vertices, crossings, triple points, Voronoi vertices */
+#define COUNT_POINTS 14 /* mesh vertices, crossings, triple points, Voronoi vertices */
 #define COUNT_INTERVALS 15
 #define COUNT_SEGMENTS 16
 #define COUNT_FACES 17
 #define COUNT_CAP_TRIANGLES 18
-#define COUNT_NODES 19           /* corners that large faces may have, bridges included */
+#define COUNT_NODES 19 /* corners that large faces may have, bridges included */
 #define COUNT_COMPONENTS 20
-#define COUNT_TRIANGLES 21       /* candidates: whole triangles, fans, both sides of caps */
+#define COUNT_TRIANGLES 21 /* candidates: whole triangles, fans, both sides of caps */
 #define COUNT_FRAGMENTS 22
-#define COUNT_VALID 23           /* triangles that are left after collapsed ones are dropped */
-#define COUNT_EXACT_SMALL 24     /* cells queued for the exact kernel, by size */
+#define COUNT_VALID 23       /* triangles that are left after collapsed ones are dropped */
+#define COUNT_EXACT_SMALL 24 /* cells queued for the exact kernel, by size */
 #define COUNT_EXACT_MEDIUM 25
 #define COUNT_EXACT_LARGE 26
 #define COUNT_HUGE_FACES 27
 #define COUNT_LARGE_FACES 28
 #define COUNT_RADIX 29
-#define COUNT_EMITTED 30         /* triangles of all fragments */
+#define COUNT_EMITTED 30 /* triangles of all fragments */
 #define COUNT_DRAWS 31
 #define COUNT_CAVITIES 32
-#define COUNT_SUSPECTS 33         /* caps that may be one side of a flap */
+#define COUNT_SUSPECTS 33 /* caps that may be one side of a flap */
 #define COUNT_SUSPECT_SIDES 34
 #define COUNT_FILMS 35
-#define COUNT_PARTS 36            /* cavities, each part of another component's fragment */
-#define COUNT_AGAIN 37            /* candidates, where films have been merged and islands are to be found anew; else 0 */
-#define COUNT_SORT 38             /* triangles to be sorted by component */
-#define COUNT_WIDE_FACES 39       /* that a lane cannot triangulate */
-#define COUNT_ISLAND_PAIRS 40     /* fragments that share a cell */
-#define COUNT_PARTINGS 41         /* those of them whose boxes do not lie apart */
+#define COUNT_PARTS 36        /* cavities, each part of another component's fragment */
+#define COUNT_AGAIN 37        /* candidates, where films have been merged and islands are to be found anew; else 0 */
+#define COUNT_SORT 38         /* triangles to be sorted by component */
+#define COUNT_WIDE_FACES 39   /* that a lane cannot triangulate */
+#define COUNT_ISLAND_PAIRS 40 /* fragments that share a cell */
+#define COUNT_PARTINGS 41     /* those of them whose boxes do not lie apart */
 #define COUNT_COLLIDERS 42
 #define COUNT_COLLIDER_FACES 43
 #define COUNT_COLLIDER_VERTICES 44
 #define COUNT_COLLIDER_CORNERS 45
-#define COUNT_BREAKING 46         /* objects that break together, where the device finds out */
-#define COUNT_SOUP_TRIANGLES 47   /* of their surfaces as they are drawn */
+#define COUNT_BREAKING 46       /* objects that break together, where the device finds out */
+#define COUNT_SOUP_TRIANGLES 47 /* of their surfaces as they are drawn */
 #define COUNT_SOUP_CORNERS 48
-#define COUNT_MESH_VERTICES 49    /* of what is to be broken: corners of one place are one vertex */
+#define COUNT_MESH_VERTICES 49 /* of what is to be broken: corners of one place are one vertex */
 #define COUNT_OWN_TRIANGLES 50
 #define COUNT_EARLIER_TRIANGLES 51 /* of faces of earlier cuts */
 #define COUNT_MESH_TRIANGLES 52
 #define COUNT_MESH_CORNERS 53
 #define COUNT_MESH_EDGES 54
 #define COUNT_ASKED_SITES 55
-#define COUNT_BINS 56             /* of the search grid */
-#define COUNT_EVENT 57            /* 1 where the device has found something that breaks */
-#define COUNT_CLEARING 58         /* workgroups that clear tables then */
+#define COUNT_BINS 56     /* of the search grid */
+#define COUNT_EVENT 57    /* 1 where the device has found something that breaks */
+#define COUNT_CLEARING 58 /* workgroups that clear tables then */
 #define CLEARING_GROUPS 64u
 #define COUNT_TOTAL 59
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL
-#define STATUS_NEEDED (COUNT_TOTAL + 1)     /* one word per count: what the pool would have had to hold */
+#define STATUS_NEEDED (COUNT_TOTAL + 1) /* one word per count: what the pool would have had to hold */
 #define STATUS_BAD_CELLS (2 * COUNT_TOTAL + 1)
 #define STATUS_BAD_CLIP (2 * COUNT_TOTAL + 2)
 #define STATUS_BAD_LOOKUP (2 * COUNT_TOTAL + 3)
@@ -103,13 +103,14 @@
 #define STATUS_ROUNDS_LEFT (2 * COUNT_TOTAL + 13)
 #define STATUS_TURNED_OVER (2 * COUNT_TOTAL + 14)
 #define STATUS_BAD_WELD (2 * COUNT_TOTAL + 15)
-#define STATUS_CROWDED (2 * COUNT_TOTAL + 16)  /* sites in the fullest bin, where there are too many to be ordered */
-#define STATUS_TOO_LONG (2 * COUNT_TOTAL + 17) /* edges and triangles that meet more cells than one lane can walk */
-#define STATUS_SIDES (2 * COUNT_TOTAL + 18) /* of the polygon that had too many */
-#define STATUS_JOINED (2 * COUNT_TOTAL + 19) /* films that have found a host */
-#define STATUS_BAD_DIAGRAM (2 * COUNT_TOTAL + 20)  /* Voronoi edges without a beginning: signs were rounded */
+#define STATUS_CROWDED (2 * COUNT_TOTAL + 16)       /* sites in the fullest bin, where there are too many to be ordered */
+#define STATUS_TOO_LONG (2 * COUNT_TOTAL + 17)      /* edges and triangles that meet more cells than one lane can walk */
+#define STATUS_SIDES (2 * COUNT_TOTAL + 18)         /* of the polygon that had too many */
+#define STATUS_JOINED (2 * COUNT_TOTAL + 19)        /* films that have found a host */
+#define STATUS_BAD_DIAGRAM (2 * COUNT_TOTAL + 20)   /* Voronoi edges without a beginning: signs were rounded */
 #define STATUS_OPEN_OUTLINES (2 * COUNT_TOTAL + 21) /* cut faces whose outline does not close: signs were rounded */
-#define STATUS_TOO_LARGE (2 * COUNT_TOTAL + 22) /* a body, counted from 1, that no step has room to break */
+#define STATUS_TOO_LARGE                                                                                                       \
+    (2 * COUNT_TOTAL + 22) /* 1 where the list of what breaks is followed by a body that no step has room for */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u
@@ -125,7 +126,8 @@
 #define CELL_OK 0u
 #define CELL_UNDECIDED 1u
 #define CELL_OVERFLOW 2u
-#define CELL_OPEN 3u /* cut but for a few sites, which are in doubt: their ids stand at RAW_OPEN, their number above the status */
+#define CELL_OPEN                                                                                                              \
+    3u /* cut but for a few sites, which are in doubt: their ids stand at RAW_OPEN, their number above the status */
 #define MOST_OPEN 16
 #define RAW_OPEN (RAW_WORDS - MOST_OPEN)
 
@@ -137,7 +139,7 @@
 #define MOST_LINEAR_SITES 100000u /* that a lane can go through twice, LINEAR_AT_ONCE a turn */
 #define LINEAR_AT_ONCE 8u
 #define MOST_TREE_LEVELS 24u
-#define FEW_SITES 1024 /* that one workgroup sorts in shared memory, into as many bins */
+#define FEW_SITES 1024     /* that one workgroup sorts in shared memory, into as many bins */
 #define TRIES_A_ROUND 512u /* to place a site inside the mesh */
 
 // Sides of a clipped polygon; one that outgrows the usual number has the event done again with the larger.

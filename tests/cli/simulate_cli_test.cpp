@@ -189,6 +189,33 @@ TEST_F(SimulateCli, ABallThatBreaksGivesWayToItsFragments) {
 }
 
 // A ball of concrete, between the ground and a block of steel; its fragments break again while the block comes down on them.
+TEST_F(SimulateCli, SaysWhatBrokeByWhatAndWhatStayedWhole) {
+    std::ofstream(path("told.toml")) << "name = \"told\"\neffects = [\"gravity\", \"impact_fracture\", \"events\"]\n"
+                                        "[budgets]\nfragments = 100\nmost_fragments = 60\n"
+                                        "[[body]]\nname = \"first\"\nshape = \"ball\"\nradius = 0.1\nplace = [0, 0.3, 0]\n"
+                                        "velocity = [0, -9, 0]\nmaterial = \"glass\"\n"
+                                        "[[body]]\nname = \"second\"\nshape = \"ball\"\nradius = 0.1\nplace = [2, 0.3, 0]\n"
+                                        "velocity = [0, -9, 0]\nmaterial = \"glass\"\n[[collider]]\nname = \"ground\"\n";
+    const Outcome run = simulate({path("told.toml"), "--seconds", "0.1", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json breaks = nlohmann::json::parse(run.out)["breaks"];
+    ASSERT_EQ(breaks.size(), 2u) << breaks;
+    EXPECT_EQ(breaks[0]["body"], "first");
+    EXPECT_EQ(breaks[0]["hit_by"], "ground");
+    EXPECT_GT(breaks[0]["fragments"], 20u);
+    EXPECT_GT(breaks[0]["crack_area"], 0.0);
+    EXPECT_NEAR(double{breaks[0]["place"][1]}, 0, 0.02);
+    EXPECT_NEAR(double{breaks[1]["place"][0]}, 2, 0.02);
+    EXPECT_EQ(breaks[1]["body"], "second");
+    EXPECT_EQ(breaks[1]["fragments"], 0u);
+    EXPECT_EQ(breaks[1]["whole"], "no room in the world");
+    EXPECT_GT(breaks[1]["lacked"]["bodies"], 0u);
+    const Outcome told = simulate({path("told.toml"), "--seconds", "0.1", "-o", path("a.glb")});
+    ASSERT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_NE(told.out.find("first by ground at 9"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("whole: no room in the world, lacked "), std::string::npos) << told.out;
+}
+
 TEST_F(SimulateCli, NothingIsMissingWhileFragmentsBreakAgain) {
     std::ofstream(path("twice.toml")) << "name = \"twice\"\neffects = [\"contacts\", \"impact_fracture\", \"refracture\"]\n"
                                          "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius = 0.3\nplace = [0, 0.5, 0]\n"

@@ -95,7 +95,7 @@ Outcome judge(const Line& line) {
     return {valuesOf<gpu::BlowRecord>(blows, pairs),
             valuesOf<uint32_t>(touches, pairs),
             valuesOf<uint32_t>(shares, count),
-            valuesOf<gpu::BrokenBody>(broken, event[COUNT_BREAKING]),
+            valuesOf<gpu::BrokenBody>(broken, event[COUNT_BREAKING] + event[STATUS_TOO_LARGE]),
             valuesOf<gpu::BreakingRecord>(breaking, event[COUNT_BREAKING]),
             valuesOf<gpu::BreakableBody>(breakable, count),
             event[COUNT_ASKED_SITES],
@@ -200,10 +200,11 @@ TEST(Blows, WaitWhereThereIsNoRoomInThisStepAndAreDroppedWhereThereNeverIs) {
     EXPECT_EQ(two.touches, std::vector<uint32_t>(5, 0));
     line.breakable[3].surface.y = 3 * kCorners;
     const Outcome without = judge(line);
-    ASSERT_EQ(without.broken.size(), 2u);
+    ASSERT_EQ(without.broken.size(), 3u) << "who does not fit is behind them, to be told of";
     EXPECT_EQ(without.broken[1].ids.x, 2u);
-    EXPECT_EQ(without.too_large, 4u);
-    EXPECT_EQ(without.breakable[3].surface.y, 0u);
+    EXPECT_EQ(without.too_large, 1u);
+    EXPECT_EQ(without.broken[2].ids.x, 3u);
+    EXPECT_GT(without.breakable[3].form.w, 1e30f);
 }
 
 // The sphere around the impact and the grid are checked in the gathering of what breaks; here, that the place is the contact's.

@@ -117,7 +117,7 @@ TEST(Cracks, CostExactlyWhatTheyAreWorthAndNoMomentum) {
         const Paid paid = pay(crash);
         const Motion before = motionOf(crash, statesOf(crash.bodies)), after = motionOf(crash, paid.states);
         const double cost = fractureEnergy() * crash.hits[0].cracks;
-        ASSERT_EQ(paid.ledger[0].outcome.x, 1u);
+        ASSERT_EQ(paid.ledger[0].outcome.x, 0u);
         EXPECT_NEAR(paid.ledger[0].energies.z, cost, 1e-5 * cost);
         const double due = std::min(cost, energyAtTheContact(crash));
         EXPECT_NEAR(before.energy - after.energy, due, 1e-3 * due + 4e-6 * before.energy) << k;
@@ -161,13 +161,12 @@ TEST(Cracks, OfTwoThatBreakEachOtherArePaidForTogether) {
 
 TEST(Cracks, OfWhatStaysWholeCostNothingAndItIsLeftAloneForAWhile) {
     Chance chance(8);
-    for (const bool refused : {true, false}) {
+    for (const uint32_t why : {WHOLE_NO_ROOM, WHOLE_TOO_DEAR, WHOLE_ONE_PIECE}) {
         Crash crash = randomCrash(chance, true);
-        crash.hits[0].cracks = 0.05;
-        crash.hits[0].refused = refused;
-        if (!refused) crash.hits[0].cracks = 0;
+        crash.hits[0].cracks = why == WHOLE_TOO_DEAR ? -0.05 : why == WHOLE_ONE_PIECE ? 0 : 0.05;
+        crash.hits[0].refused = why == WHOLE_NO_ROOM;
         const Paid paid = pay(crash);
-        EXPECT_EQ(paid.ledger[0].outcome.x, 0u);
+        EXPECT_EQ(paid.ledger[0].outcome.x, why);
         for (size_t b = 0; b < 2; ++b)
             EXPECT_EQ(std::memcmp(&paid.states[b], &crash.bodies[b].state, sizeof(gpu::BodyState)), 0);
         EXPECT_FLOAT_EQ(paid.breakable[0].form.w, 1 + kPause);

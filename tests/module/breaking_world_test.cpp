@@ -5,6 +5,7 @@
 #include "modules/brittle/effects/material.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/engine/test_device.h"
+#include "tests/module/breaking_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -14,101 +15,9 @@
 
 namespace {
 
-using brittle::SceneDescription, brittle::BodyDescription, brittle::ColliderDescription;
-
-constexpr double kBall = 0.1; // m
-
-BodyDescription ball(brittle::Double3 place, const char* material) {
-    BodyDescription body;
-    body.shape.kind = brittle::ShapeKind::Ball;
-    body.shape.radius = kBall;
-    body.place = place;
-    body.material = material;
-    return body;
-}
-
-SceneDescription sceneOf(std::vector<BodyDescription> bodies, bool floor = true) {
-    SceneDescription scene;
-    scene.effects = {"gravity", "contacts", "friction", "impact_fracture", "events"};
-    scene.bodies = std::move(bodies);
-    if (floor) scene.colliders.push_back({});
-    return scene;
-}
-
-std::unique_ptr<brittle::World> worldOf(const SceneDescription& scene, const brittle::WorldBudget& budget = {}) {
-    const auto contents = brittle::contentsOf(scene, {}, nullptr);
-    EXPECT_TRUE(contents) << contents.error().message;
-    const auto settings = brittle::settingsOf(scene);
-    EXPECT_TRUE(settings);
-    auto world = brittle::World::create(engine_test::device(), *contents, *settings, budget);
-    EXPECT_TRUE(world) << world.error().message;
-    return std::move(*world);
-}
-
-std::vector<gpu::BodyState> presentBodies(brittle::World& world) {
-    const auto states = world.bodies();
-    EXPECT_TRUE(states);
-    std::vector<gpu::BodyState> present;
-    for (const gpu::BodyState& body : *states)
-        if ((body.sector.w & BODY_ABSENT) == 0 && body.offset.w != 0) present.push_back(body);
-    return present;
-}
-
-double massOf(const std::vector<gpu::BodyState>& bodies) {
-    double mass = 0;
-    for (const gpu::BodyState& body : bodies)
-        mass += 1.0 / body.offset.w;
-    return mass;
-}
-
-void step(brittle::World& world, uint32_t steps = 1) {
-    const auto done = world.step(steps);
-    ASSERT_TRUE(done) << done.error().message;
-}
-
-// Steps until something breaks, for so many steps at most, and returns what did.
-std::vector<gpu::BreakEvent> stepUntilItBreaks(brittle::World& world, uint32_t most) {
-    for (uint32_t k = 0; k < most; ++k) {
-        step(world);
-        const auto breaks = world.breaks();
-        EXPECT_TRUE(breaks);
-        if (!breaks->events.empty()) return breaks->events;
-    }
-    return {};
-}
-
+using namespace breaking_scenes;
+using brittle::BodyDescription, brittle::ColliderDescription, brittle::SceneDescription;
 using brittle::Double3, brittle::operator+, brittle::operator-, brittle::operator*;
-
-struct Motion {
-    double mass = 0, energy = 0;
-    Double3 momentum = {0, 0, 0}, angular = {0, 0, 0};
-};
-
-Double3 vectorOf(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-
-Motion motionOf(const std::vector<gpu::BodyState>& bodies) {
-    Motion sum;
-    sum.energy = brittle::kineticEnergyOf(bodies);
-    for (const gpu::BodyState& body : bodies) {
-        const double mass = 1.0 / body.offset.w;
-        const Double3 momentum = mass * vectorOf(body.velocity);
-        sum.mass += mass;
-        sum.momentum = sum.momentum + momentum;
-        sum.angular = sum.angular + vectorOf(body.momentum) + brittle::cross(brittle::poseOf(body).place, momentum);
-    }
-    return sum;
-}
-
-double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
-
-// In empty space: a ball that breaks, and one that does not, which hits it off its middle. Far enough away to fly a while.
-SceneDescription shot(double speed, const char* material) {
-    SceneDescription scene = sceneOf({ball({0, 0, 0}, material), ball({-0.6, 0.06, 0}, "")}, false);
-    scene.effects = {"contacts", "impact_fracture", "events"};
-    scene.bodies[1].velocity = {speed, 0, 0};
-    scene.bodies[1].mass = 4;
-    return scene;
-}
 
 TEST(BreakingWorld, ABallOfGlassThatFallsFromHighUpBreaks) {
     const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass")}));
@@ -308,17 +217,50 @@ TEST(BreakingWorld, FragmentsBreakAgainWhereThatIsAskedFor) {
     }
 }
 
-TEST(BreakingWorld, WhatThereIsNoRoomForStaysWholeAndIsStoppedAsAnyBody) {
+struct TooSmall {
+    const char* what;
+    brittle::BreakingBudget budget;
+    uint32_t why = 0;
+    std::array<bool, POOLS> lacks = {};
+};
+
+// Every pool to the brim while something breaks.
+TEST(BreakingWorld, WhatThereIsNoRoomForStaysWholeSaysWhyAndIsStoppedAsAnyBody) {
+    const TooSmall kPools[] = {
+        {"bodies and pieces", {.fragments = 20, .faces = 40000, .triangles = 90000}, WHOLE_NO_ROOM, {true, true, false, false}},
+        {"faces", {.faces = 100}, WHOLE_NO_ROOM, {false, false, true, false}},
+        {"triangles", {.triangles = 300}, WHOLE_NO_ROOM, {false, false, false, true}},
+        {"all", {.fragments = 3}, WHOLE_NO_ROOM, {true, true, true, true}},
+        {"triangles of a step", {.step_triangles = 8}, WHOLE_TOO_LARGE, {}}};
+    for (const TooSmall& pool : kPools) {
+        const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass")}), {.breaking = pool.budget});
+        const auto events = stepUntilItBreaks(*world, 60);
+        ASSERT_EQ(events.size(), 1u) << pool.what;
+        EXPECT_EQ(events[0].made.x, 0u) << pool.what;
+        EXPECT_EQ(events[0].made.y, pool.why) << pool.what;
+        const uint32_t lacked[POOLS] = {events[0].lacked.x, events[0].lacked.y, events[0].lacked.z, events[0].lacked.w};
+        for (size_t k = 0; k < POOLS; ++k)
+            EXPECT_EQ(lacked[k] > 0, pool.lacks[k]) << pool.what << ", pool " << k << " lacked " << lacked[k];
+        step(*world, 60);
+        const auto bodies = presentBodies(*world);
+        ASSERT_EQ(bodies.size(), 1u) << pool.what;
+        EXPECT_NEAR(brittle::poseOf(bodies[0]).place[1], kBall, 0.02) << pool.what;
+    }
+}
+
+// What stayed whole for want of room breaks once there is some: nothing is lost by the attempt.
+TEST(BreakingWorld, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
     brittle::WorldBudget budget;
-    budget.breaking.fragments = 3;
-    const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass")}), budget);
+    budget.breaking.fragments = 200;
+    budget.breaking.most_fragments = 128;
+    const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass"), ball({1, 3, 0}, "glass")}), budget);
+    const double mass = massOf(presentBodies(*world));
     const auto events = stepUntilItBreaks(*world, 60);
-    ASSERT_EQ(events.size(), 1u);
-    EXPECT_EQ(events[0].made.x, 0u);
-    step(*world, 60);
-    const auto bodies = presentBodies(*world);
-    ASSERT_EQ(bodies.size(), 1u);
-    EXPECT_NEAR(brittle::poseOf(bodies[0]).place[1], kBall, 0.02);
+    ASSERT_EQ(events.size(), 2u);
+    EXPECT_GT(events[0].made.x, 100u);
+    EXPECT_EQ(events[1].made.x, 0u);
+    EXPECT_EQ(events[1].made.y, uint32_t{WHOLE_NO_ROOM});
+    EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-6 * mass);
 }
 
 } // namespace

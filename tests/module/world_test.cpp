@@ -308,6 +308,29 @@ WorldContents tower(int cubes, double apart) {
     return contents;
 }
 
+// As worlds do that have to make room for more pairs.
+TEST(World, GoesOnFromAStateOfWhenItHadLessRoomOrMore) {
+    const brittle::WorldContents contents = heap();
+    const auto small = worldOf(contents), grown = worldOf(contents);
+    const auto before = small->save();
+    ASSERT_TRUE(before);
+    brittle::WorldBudget roomy;
+    roomy.pairs = 50'000;
+    auto large = World::create(engine_test::device(), contents, {}, roomy);
+    ASSERT_TRUE(large);
+    ASSERT_TRUE((*large)->restore(*before));
+    run(*grown, 40);
+    run(**large, 40);
+    EXPECT_EQ(hashOf(**large), hashOf(*grown));
+    const auto later = (*large)->save();
+    ASSERT_TRUE(later);
+    ASSERT_TRUE(small->restore(*later));
+    run(*small, 20);
+    run(*grown, 20);
+    EXPECT_EQ(hashOf(*small), hashOf(*grown));
+    EXPECT_FALSE(worldOf(tower(3, 1.1))->restore(*later));
+}
+
 void expectNoRoom(World& world, std::string_view why) {
     const uint64_t before = hashOf(world);
     const auto done = world.step(4);

@@ -48,8 +48,7 @@ SceneRun::SceneRun(const brittle::SceneDescription& scene) : scene_(scene) {
         return;
     }
     contents_ = std::move(*contents);
-    auto world =
-        brittle::World::create(engine_test::device(), contents_, *settings, {scene_.budgets.pairs, scene_.budgets.contacts});
+    auto world = brittle::World::create(engine_test::device(), contents_, *settings, brittle::budgetOf(scene_));
     if (!world) ADD_FAILURE() << world.error().message;
     if (!world) return;
     world_ = std::move(*world);

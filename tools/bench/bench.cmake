@@ -21,7 +21,7 @@ if(VOROPP_HEADERS AND VOROPP_LIBRARY)
 endif()
 
 if(TARGET brittle_module)
-    add_library(brittle_bench STATIC ${bench_dir}/bench.cpp ${bench_dir}/bench_broad_phase.cpp ${bench_dir}/bench_caps.cpp
+    add_library(brittle_bench STATIC ${bench_dir}/bench.cpp ${bench_dir}/bench_breaking.cpp ${bench_dir}/bench_broad_phase.cpp ${bench_dir}/bench_caps.cpp
         ${bench_dir}/bench_cells.cpp ${bench_dir}/bench_colliders.cpp ${bench_dir}/bench_narrow_phase.cpp
         ${bench_dir}/bench_piles.cpp ${bench_dir}/bench_shatter.cpp ${bench_dir}/bench_startup.cpp
         ${bench_dir}/bench_variants.cpp ${bench_dir}/our_side.cpp ${bench_dir}/peer_bullet.cpp ${bench_dir}/peer_cgal.cpp

@@ -15,6 +15,11 @@
 
 namespace bench {
 
+// So many bodies that break in one frame, into so many cells each, and bodies that only lie there.
+struct BreakingCase {
+    uint32_t bodies = 10, cells = 64, bystanders = 0;
+};
+
 struct BenchOptions {
     std::vector<uint32_t> cell_counts = {100, 1'000, 10'000, 100'000}; // sites in a cube
     std::vector<uint32_t> shatter_counts = {10, 100, 1'000};           // sites in the bumpy sphere
@@ -28,6 +33,9 @@ struct BenchOptions {
     uint32_t pile_steps = 300;                                        // of a sixtieth of a second
     std::vector<uint32_t> box_counts = {1'000, 10'000, 100'000};      // of the broad phase
     std::vector<uint32_t> pair_counts = {10'000};                     // of hulls, of the narrow phase
+    // The first one with every set of effects, too.
+    std::vector<BreakingCase> breaking_cases = {{10, 64, 0}, {1, 64, 0},   {3, 64, 0},    {30, 64, 0},
+                                                {10, 16, 0}, {10, 256, 0}, {10, 64, 100}, {10, 64, 1000}};
     uint32_t startup_rounds = 3;
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;
@@ -128,6 +136,18 @@ struct NarrowPhaseRow {
     double ms = 0; // device time
 };
 
+// Sixty frames in which all of them break at once, over and over: frames as a host sees them, submission and wait included.
+struct BreakingRow {
+    BreakingCase what;
+    std::vector<std::string> effects;
+    uint32_t broken = 0, fragments = 0;              // in the frame in which things break first
+    double p50_ms = 0, p99_ms = 0;                   // of all frames of all rounds
+    double before_ms = 0, break_ms = 0, next_ms = 0; // medians over the rounds: of means, of that frame and the next one
+    double after_ms = 0;                             // and of means of all after it
+    uint64_t bytes = 0;                              // on the device
+    Times stages, next_stages;                       // of that frame and the next one
+};
+
 struct StartupRow {
     double cold_ms = 0, warm_ms = 0; // a process that breaks 1280 triangles into 10 cells, without and with the driver's cache
 };
@@ -152,6 +172,10 @@ engine::Result<std::vector<BroadPhaseRow>> benchBroadPhase(engine::Device& devic
                                                            const Progress& progress);
 engine::Result<std::vector<NarrowPhaseRow>> benchNarrowPhase(engine::Device& device, const BenchOptions& options,
                                                              const Progress& progress);
+engine::Result<std::vector<BreakingRow>> benchBreaking(engine::Device& device, const BenchOptions& options,
+                                                       const Progress& progress);
+engine::Result<std::vector<BreakingRow>> benchBreakingEffects(engine::Device& device, const BenchOptions& options,
+                                                              const Progress& progress);
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress);
 
 double median(std::vector<double> samples); // 0 of none

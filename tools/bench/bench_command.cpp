@@ -21,6 +21,8 @@ struct Options {
     bench::BenchOptions bench;
     std::string device, output;
     bool cells_only = false, shatter_only = false, variants_only = false, colliders_only = false, dynamics_only = false;
+    bool breaking_only = false;
+    std::vector<uint32_t> breaking_case; // one, in place of all
 };
 
 // Below 1: ours is faster.
@@ -113,6 +115,10 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
     if (!colliders) return colliders.error();
     const auto dynamics = measureDynamics(device, options, progress);
     if (!dynamics) return dynamics.error();
+    const auto breaking = bench::benchBreaking(device, options, progress);
+    if (!breaking) return breaking.error();
+    const auto effects = bench::benchBreakingEffects(device, options, progress);
+    if (!effects) return effects.error();
     Json report = {{"device", device.name()},
                    {"driver", device.driver()},
                    {"group_size", options.group_size == 0 ? GROUP_SIZE : options.group_size},
@@ -125,6 +131,8 @@ engine::Result<Json> measure(engine::Device& device, const bench::BenchOptions& 
                    {"variants", toJson(*variants)},
                    {"colliders", toJson(*colliders)}};
     report.update(*dynamics);
+    report["breaking"] = breakingReport(*breaking);
+    report["breaking_effects"] = breakingReport(*effects);
     if (options.startup_rounds == 0) return report;
     const auto startup = bench::benchStartup(device, options, progress);
     if (!startup) return startup.error();
@@ -148,13 +156,22 @@ engine::Result<std::optional<brittle::OutputFile>> openOutput(const std::string&
     return std::optional<brittle::OutputFile>(std::move(*file));
 }
 
+engine::Result<void> checkBreakingCase(const std::vector<uint32_t>& numbers) {
+    if (numbers.empty() || (numbers[0] >= 1 && numbers[0] <= 256 && numbers[1] >= 2)) return {};
+    return engine::Error{engine::ErrorCode::BadInput,
+                         "--breaking-case: give 1 to 256 bodies, at least 2 cells of each, and any number that lie about"};
+}
+
 // Leaves out what was not asked for, where some parts were.
 void keepAskedFor(Options& options) {
     bench::BenchOptions& bench = options.bench;
     bench.only_colliders = options.colliders_only;
+    if (!options.breaking_case.empty())
+        bench.breaking_cases = {{options.breaking_case[0], options.breaking_case[1], options.breaking_case[2]}};
     if (!options.cells_only && !options.shatter_only && !options.variants_only && !options.colliders_only &&
-        !options.dynamics_only)
+        !options.dynamics_only && !options.breaking_only)
         return;
+    if (!options.breaking_only) bench.breaking_cases.clear();
     if (!options.cells_only) bench.cell_counts.clear();
     if (!options.shatter_only && !options.colliders_only) bench.shatter_counts.clear();
     if (!options.colliders_only) bench.collider_directions.clear();
@@ -172,6 +189,7 @@ void keepAskedFor(Options& options) {
 }
 
 int runBench(Options options) {
+    if (auto sound = checkBreakingCase(options.breaking_case); !sound) return fail(sound.error());
     keepAskedFor(options);
     auto file = openOutput(options.output);
     if (!file) return fail(file.error());
@@ -200,6 +218,16 @@ void addDynamicsOptions(CLI::App& command, Options& options) {
     command.add_option("--pair-counts", options.bench.pair_counts, "numbers of pairs of hulls, for the narrow phase")
         ->capture_default_str()
         ->check(CLI::Range(1u, 500'000u));
+}
+
+void addBreakingOptions(CLI::App& command, Options& options) {
+    command.add_flag("--breaking", options.breaking_only,
+                     "only frames in which bodies break, and what each effect costs there");
+    command
+        .add_option("--breaking-case", options.breaking_case,
+                    "one case in place of all: bodies that break at once, cells of each, bodies that lie about")
+        ->expected(3)
+        ->check(CLI::Range(0u, 4096u));
 }
 
 } // namespace
@@ -234,8 +262,12 @@ void addBench(CLI::App& app, int& exit_code) {
             ->excludes(shatters)
             ->excludes(variants);
     addDynamicsOptions(*command, *options);
-    for (CLI::Option* other : {cells, shatters, variants, colliders})
+    addBreakingOptions(*command, *options);
+    for (CLI::Option* other : {cells, shatters, variants, colliders}) {
         command->get_option("--dynamics")->excludes(other);
+        command->get_option("--breaking")->excludes(other);
+    }
+    command->get_option("--breaking")->excludes(command->get_option("--dynamics"));
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     addDeviceOptions(*command, options->device, options->bench.group_size);
     command->callback([options, &exit_code] { exit_code = runBench(*options); });

@@ -205,8 +205,7 @@ engine::Result<PileRow> benchPile(engine::Device& device, uint32_t count, const 
     if (!pile) return pile.error();
     const auto settings = brittle::settingsOf(pile->scene);
     if (!settings) return settings.error();
-    auto world = brittle::World::create(device, pile->contents, *settings,
-                                        {pile->scene.budgets.pairs, pile->scene.budgets.contacts, options.group_size});
+    auto world = brittle::World::create(device, pile->contents, *settings, brittle::budgetOf(pile->scene, options.group_size));
     if (!world) return world.error();
     std::vector<Peer> peers = peersOf(pile->contents, settings->gravity);
     PileRow row;

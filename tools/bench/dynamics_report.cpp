@@ -74,6 +74,28 @@ Json sharesOf(const char* what, const bench::Times& times) {
     return rows;
 }
 
+Json breakingReport(const std::vector<bench::BreakingRow>& rows) {
+    Json list = Json::array();
+    for (const bench::BreakingRow& row : rows)
+        list.push_back({{"bodies", row.what.bodies},
+                        {"cells", row.what.cells},
+                        {"bystanders", row.what.bystanders},
+                        {"effects", row.effects},
+                        {"broken", row.broken},
+                        {"fragments", row.fragments},
+                        {"p50_ms", row.p50_ms},
+                        {"p99_ms", row.p99_ms},
+                        {"p99_less_p50_ms", row.p99_ms - row.p50_ms},
+                        {"before_ms", row.before_ms},
+                        {"break_ms", row.break_ms},
+                        {"next_ms", row.next_ms},
+                        {"after_ms", row.after_ms},
+                        {"bytes", row.bytes},
+                        {"stages", sharesOf("stage", row.stages)},
+                        {"next_stages", sharesOf("stage", row.next_stages)}});
+    return list;
+}
+
 Json pilesReport(const std::vector<bench::PileRow>& rows) { return reportOf(rows, &bench::PileRow::bodies); }
 Json broadPhaseReport(const std::vector<bench::BroadPhaseRow>& rows) { return reportOf(rows, &bench::BroadPhaseRow::boxes); }
 Json narrowPhaseReport(const std::vector<bench::NarrowPhaseRow>& rows) { return reportOf(rows, &bench::NarrowPhaseRow::pairs); }

@@ -77,11 +77,18 @@ std::vector<Row> rowsOf(const PlanReport& report) {
     return rows;
 }
 
-void printAccesses(const Pass& pass) {
+// Of memory that lists share, which of them it is.
+std::string nameOf(const PassBuffer& buffer, const brittle::StepPlan& plan) {
+    const auto named = std::ranges::find(plan.buffers, buffer.buffer, &PlannedBuffer::name);
+    const bool is_shared = named != plan.buffers.end() && named->is_shared && !buffer.slot.empty();
+    return is_shared ? buffer.buffer + "/" + buffer.slot : buffer.buffer;
+}
+
+void printAccesses(const Pass& pass, const brittle::StepPlan& plan) {
     for (const char* access : {"reads", "updates", "writes"}) {
         std::string names;
         for (const PassBuffer& buffer : pass.buffers)
-            if (accessOf(buffer) == access) names += (names.empty() ? " " : ", ") + buffer.buffer;
+            if (accessOf(buffer) == access) names += (names.empty() ? " " : ", ") + nameOf(buffer, plan);
         if (!names.empty()) std::printf("          %s%s\n", access, names.c_str());
     }
 }
@@ -100,7 +107,7 @@ void printPasses(const PlanReport& report) {
         if (!pass.constants.empty()) std::printf("  (%s)", constantsOf(pass).c_str());
         if (report.is_measured && pass.isDispatch()) std::printf("  %.1f us", row.us);
         std::printf("\n");
-        printAccesses(pass);
+        printAccesses(pass, report.plan);
     }
 }
 
@@ -154,7 +161,10 @@ nlohmann::ordered_json planJson(const PlanReport& report) {
         if (!effect.called_by.empty()) effects.back()["called_by"] = effect.called_by;
     }
     for (const PlannedBuffer& buffer : report.plan.buffers)
-        buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}, {"asked_by", askedBy(buffer.asked_by)}});
+        buffers.push_back({{"name", buffer.name},
+                           {"bytes", buffer.bytes},
+                           {"asked_by", askedBy(buffer.asked_by)},
+                           {"shared", buffer.is_shared}});
     for (const Effect effect : report.plan.effects.list())
         bytes[std::string(nameOf(effect))] = report.plan.bytesOf(effect);
     bytes["sum"] = report.plan.bytes();

@@ -39,6 +39,18 @@ uint32_t moversOf(std::span<const gpu::BodyState> bodies) {
     return static_cast<uint32_t>(std::ranges::count_if(bodies, [](const gpu::BodyState& body) { return body.offset.w > 0; }));
 }
 
+// By their index in the world; of bodies that begin broken, which are many there, nobody goes by a name.
+std::vector<std::string> namesOf(const brittle::SceneDescription& scene) {
+    std::vector<std::string> names;
+    for (const brittle::BodyDescription& body : scene.bodies) {
+        if (body.shape.cells.broken) return {};
+        names.push_back(body.name);
+    }
+    for (const brittle::ColliderDescription& collider : scene.colliders)
+        names.push_back(collider.name);
+    return names;
+}
+
 class Simulation {
 public:
     Simulation(engine::Device& device, StagedScene& staged, brittle::World& world, uint32_t steps)
@@ -94,6 +106,7 @@ Result<SimulationReport> Simulation::report() const {
     report.colliders = report.counts.bodies - report.movers;
     report.pieces = report.counts.pieces;
     report.left_out = brittle::effectsWithout(staged_.scene);
+    report.breaks = {staged_.scene.step.dt, namesOf(staged_.scene), clock_.breaks().events, clock_.breaks().lost};
     if (steps_ > 0) {
         const auto counts = world_.counts();
         if (!counts) return counts.error();
@@ -150,8 +163,7 @@ Result<StagedScene> stageScene(engine::Device& device, brittle::SceneDescription
 Result<std::unique_ptr<brittle::World>> worldOf(engine::Device& device, const StagedScene& staged, uint32_t group_size) {
     const auto settings = brittle::settingsOf(staged.scene);
     if (!settings) return aboutScene(staged, settings.error());
-    const brittle::WorldBudget budget = {staged.scene.budgets.pairs, staged.scene.budgets.contacts, group_size};
-    auto world = brittle::World::create(device, staged.contents, *settings, budget);
+    auto world = brittle::World::create(device, staged.contents, *settings, brittle::budgetOf(staged.scene, group_size));
     if (!world) return aboutScene(staged, world.error());
     return world;
 }
@@ -195,6 +207,8 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"bodies_at_end", r.movers_left},
             {"broken", r.counts.broken},
             {"fragments", r.counts.fragments},
+            {"breaks", breaksJson(r.breaks)},
+            {"breaks_lost", r.breaks.lost},
             {"colliders", r.colliders},
             {"pieces", r.pieces},
             {"pairs", r.counts.pairs},
@@ -214,6 +228,7 @@ void printSimulation(const SimulationReport& r, const std::string& output) {
     if (r.counts.broken > 0)
         std::printf("broken     %u bodies, into %u fragments; %u bodies at the end\n", r.counts.broken, r.counts.fragments,
                     r.movers_left);
+    printBreaks(r.breaks);
     std::printf("time       %.2f ms a step (median), %.2f (99 of 100), %.0f the first; %u dispatches\n", r.median_ms, r.p99_ms,
                 r.first_ms, r.dispatches);
     for (const auto& [name, share] : r.shares)

@@ -49,10 +49,19 @@ Result<void> WorldClock::stepOnce() {
     if (auto done = world_.step(); !done) return done;
     ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     ++made_;
+    if (auto heard = hearBreaks(); !heard) return heard;
     const auto timings = world_.timings();
     if (!timings) return timings.error();
     for (const engine::Timing& timing : *timings)
         addStage(timing);
+    return {};
+}
+
+Result<void> WorldClock::hearBreaks() {
+    const auto heard = world_.breaks();
+    if (!heard) return heard.error();
+    breaks_.events.insert(breaks_.events.end(), heard->events.begin(), heard->events.end());
+    breaks_.lost += heard->lost;
     return {};
 }
 

@@ -20,12 +20,14 @@ public:
     // the bodies that there are at the first of the two.
     engine::Result<brittle::Poses> posesAt(double time);
     engine::Result<void> advanceTo(uint64_t step);
-    const std::vector<double>& stepTimes() const { return ms_; }                          // ms, wall clock
+    const brittle::Breaks& breaks() const { return breaks_; }    // of all steps, where the scene has the effect `events`
+    const std::vector<double>& stepTimes() const { return ms_; } // ms, wall clock
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; } // ms on the device, of all steps
 
 private:
     engine::Result<const brittle::Poses*> posesOf(uint64_t step);
     engine::Result<void> stepOnce();
+    engine::Result<void> hearBreaks();
     void addStage(const engine::Timing& timing);
 
     brittle::World& world_;
@@ -33,6 +35,7 @@ private:
     double dt_;
     uint64_t last_step_, made_ = 0;
     std::map<uint64_t, brittle::Poses> kept_; // by step: the last two that were asked for
+    brittle::Breaks breaks_;
     std::vector<double> ms_;
     std::vector<std::pair<std::string, double>> stages_;
 };

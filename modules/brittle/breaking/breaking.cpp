@@ -2,10 +2,8 @@
 
 #include "engine/arena.h"
 #include "modules/brittle/breaking/adopt.h"
-#include "modules/brittle/breaking/break.h"
-#include "modules/brittle/fracture/collider_pools.h"
+#include "modules/brittle/breaking/breaking_buffers.h"
 #include "modules/brittle/fracture/fetch.h"
-#include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
 
 #include <optional>
@@ -26,59 +24,10 @@ constexpr float kForEver = 3e38f;
 constexpr uint32_t kOwnerBits = 8; // of the numbers of objects that break at once
 static_assert(MOST_BREAKING == 1 << kOwnerBits);
 
-// From step to step, and copied with the world.
-struct Lasting {
-    BufferView breakable, cards, surface_vertices;
-    BufferView told, ring; // of events
-};
-
-// Made anew in every step.
-struct Passing {
-    BufferView blows, hardest, chosen, breaking, broken, cracks, ledger, adopted, returned;
-    BufferView owners, order, other_owners, other_order, sizes, begins, rooms, owner_start, lacking;
-    BufferView histogram, digit_offsets, sums;
-};
-
-struct Sizes {
-    uint32_t pairs = 0, bodies = 0, fragments = 0;
-};
-
-uint64_t tilesOf(uint64_t n) { return (n + RADIX_TILE - 1) / RADIX_TILE; }
-
-Lasting layOutLasting(engine::ScratchArena& arena, const WorldContents& c) {
-    return {arena.take(c.breakable.size() * sizeof(gpu::BreakableBody)), arena.take(c.cards.size() * sizeof(gpu::MaterialCard)),
-            arena.take(c.surface_vertices.size() * sizeof(FragmentVertex)), arena.take(4),
-            arena.take(BREAK_EVENTS * sizeof(gpu::BreakEvent))};
-}
-
-Passing layOutPassing(engine::ScratchArena& arena, const Sizes& n) {
-    const auto words = [&](uint64_t count) { return arena.take(4 * std::max<uint64_t>(count, 4)); };
-    Passing p;
-    p.blows = arena.take(n.pairs * sizeof(gpu::BlowRecord));
-    p.hardest = words(n.bodies);
-    p.chosen = words(n.bodies);
-    p.breaking = arena.take(MOST_BREAKING * sizeof(gpu::BreakingRecord));
-    p.broken = arena.take(MOST_BREAKING * sizeof(gpu::BrokenBody));
-    p.cracks = words(MOST_BREAKING);
-    p.ledger = arena.take(MOST_BREAKING * sizeof(gpu::CrackLedger));
-    p.adopted = words(MOST_BREAKING);
-    p.returned = arena.take(MOST_BREAKING * sizeof(gpu::PoolShare));
-    for (BufferView* list : {&p.owners, &p.order, &p.other_owners, &p.other_order})
-        *list = words(n.fragments);
-    for (BufferView* list : {&p.sizes, &p.begins, &p.rooms})
-        *list = words(uint64_t{POOLS} * n.fragments);
-    p.owner_start = words(MOST_BREAKING + 1);
-    p.lacking = words(uint64_t{POOLS} * MOST_BREAKING);
-    const uint64_t histogram = tilesOf(n.fragments) << RADIX_BITS;
-    p.histogram = words(histogram);
-    p.digit_offsets = words(histogram + 1);
-    p.sums = words(histogram / SCAN_BLOCK + 2);
-    return p;
-}
-
 class DeviceBreaking final : public Breaking {
 public:
-    DeviceBreaking(Device& device, const RoomToBreak& room) : device_(device), room_(room) {}
+    DeviceBreaking(Device& device, const RoomToBreak& room, EffectSet effects)
+        : device_(device), room_(room), effects_(effects) {}
 
     Result<void> make(const WorldContents& contents, uint32_t pairs, uint32_t group_size) {
         const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments};
@@ -123,7 +72,7 @@ public:
         record.run("give_rooms", Length::counted(COUNT_FRAGMENTS), engine::NoPush{},
                    {record.counts(), p_.order, p_.sizes, p_.begins, p_.rooms, s.b.steps});
         recordPayment(record, s);
-        if (s.has(Effect::Events)) recordTelling(record, s);
+        if (s.has(Effect::Events)) recordTelling(s);
         record.commands().endLabel();
         recordSwap(record, s);
         return record.status();
@@ -146,8 +95,19 @@ public:
     }
 
     std::vector<BufferView> stateViews() const override {
-        return {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges, l_.told, l_.ring};
+        std::vector<BufferView> views = {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges};
+        if (effects_.has(Effect::Events)) views.insert(views.end(), {l_.told, l_.ring});
+        return views;
     }
+    std::vector<NamedBuffer> buffers() const override {
+        std::vector<NamedBuffer> named = namedBuffers(l_, p_, pools_);
+        const BufferView range(&passing_->buffer(), fracture_begin_, passing_->capacity() - fracture_begin_);
+        std::ranges::copy(namedBuffers(event_.b, {"fracture", range, range.size, Effect::ImpactFracture, true}),
+                          std::back_inserter(named));
+        std::ranges::copy(namedBuffers(scene_->views(), colliders_->views()), std::back_inserter(named));
+        return named;
+    }
+    BufferView arguments() const override { return event_.b.args; }
     BufferView surfaceVertices() const override { return l_.surface_vertices; }
     BufferView breakable() const override { return l_.breakable; }
 
@@ -175,10 +135,11 @@ private:
                     s.b.steps, p_.ledger});
     }
 
-    void recordTelling(Recorder& record, const Step& s) {
-        record.runGroups(
-            "tell_breaks", 1, engine::NoPush{},
-            {record.counts(), p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told, l_.ring});
+    // In every step: a body that no step has room for is told of where nothing breaks.
+    void recordTelling(const Step& s) {
+        s.record.runGroups("tell_breaks", 1, engine::NoPush{},
+                           {event_.b.counts, p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told,
+                            l_.ring, p_.lacking});
     }
 
     void recordSwap(Recorder& record, const Step& s) {
@@ -228,11 +189,12 @@ private:
 
     // Bytes of the largest list.
     Result<uint64_t> layOutAll(engine::ScratchArena& lasting, engine::ScratchArena& passing, const WorldContents& contents) {
-        l_ = layOutLasting(lasting, contents);
+        l_ = layOutLasting(lasting, contents, effects_);
         p_ = layOutPassing(passing, sizes_);
         auto pools = layOutPools(lasting, passing, room_.pools);
         if (!pools) return pools.error();
         pools_ = *pools;
+        fracture_begin_ = passing.used();
         return std::max(layOutBreaking(passing, event_), l_.surface_vertices.size);
     }
 
@@ -250,7 +212,7 @@ private:
         upload.add(std::span(contents.cards), l_.cards);
         upload.add(std::span(contents.surface_vertices), l_.surface_vertices);
         constexpr uint32_t kNothing[] = {0};
-        upload.add(std::span<const uint32_t>(kNothing), l_.told);
+        if (effects_.has(Effect::Events)) upload.add(std::span<const uint32_t>(kNothing), l_.told);
         upload.add(std::span<const gpu::PoolHeader>(pools->headers), pools_.headers);
         upload.add(std::span(pools->ranges), pools_.free_ranges);
         return upload.send(device_);
@@ -258,22 +220,24 @@ private:
 
     Device& device_;
     RoomToBreak room_;
-    Sizes sizes_;
+    EffectSet effects_;
+    BreakingSizes sizes_;
     BreakingEvent event_;
     std::optional<SceneBuffers> scene_;
     std::optional<ColliderBuffers> colliders_;
     std::optional<engine::ScratchArena> lasting_, passing_;
-    Lasting l_;
-    Passing p_;
+    LastingBuffers l_;
+    PassingBuffers p_;
     PoolBuffers pools_;
+    VkDeviceSize fracture_begin_ = 0; // of what fracturing needs, in what is made anew
 };
 
 } // namespace
 
 Result<std::unique_ptr<Breaking>> Breaking::create(Device& device, const WorldContents& contents, const RoomToBreak& room,
-                                                   uint32_t pairs, uint32_t group_size) {
-    auto breaking = std::make_unique<DeviceBreaking>(device, room);
-    if (auto made = breaking->make(contents, pairs, group_size); !made) return made.error();
+                                                   const WorldSizes& world, uint32_t group_size) {
+    auto breaking = std::make_unique<DeviceBreaking>(device, room, world.effects);
+    if (auto made = breaking->make(contents, world.pairs, group_size); !made) return made.error();
     return std::unique_ptr<Breaking>(std::move(breaking));
 }
 

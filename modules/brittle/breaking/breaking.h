@@ -15,10 +15,11 @@ namespace brittle {
 
 class Breaking {
 public:
-    // `contents` with room, as the world has them; `pairs`: of the broad phase, that there is room for. Errors: Capacity, with
-    // the list that the device cannot bind; Device.
+    // `contents` with room, as the world of that size has them. Errors: Capacity, with the list that the device cannot bind;
+    // Device.
     static engine::Result<std::unique_ptr<Breaking>> create(engine::Device& device, const WorldContents& contents,
-                                                            const RoomToBreak& room, uint32_t pairs, uint32_t group_size);
+                                                            const RoomToBreak& room, const WorldSizes& world,
+                                                            uint32_t group_size);
     virtual ~Breaking() = default;
 
     virtual void recordBlows(const Step& step) = 0;
@@ -28,6 +29,9 @@ public:
     virtual engine::Result<Breaks> tell(uint32_t& heard) = 0;
     // All that the next step depends on, beside what the world has.
     virtual std::vector<engine::BufferView> stateViews() const = 0;
+    // All of its own, by name.
+    virtual std::vector<NamedBuffer> buffers() const = 0;
+    virtual engine::BufferView arguments() const = 0; // of the event's dispatches
     // SceneVertices, three a triangle, of all surfaces; gpu::BreakableBody, a body each.
     virtual engine::BufferView surfaceVertices() const = 0;
     virtual engine::BufferView breakable() const = 0;

@@ -90,7 +90,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     const uint32_t faces = faceRoom(contents), triangles = static_cast<uint32_t>(contents.surface_vertices.size() / 3);
     const std::array<uint32_t, POOLS> taken = {room.bodies, room.pieces, faces, triangles};
     PoolRoom& pools = room.pools;
-    pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + kFacesOfOne * fragments,
+    pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + chosen(budget.faces, kFacesOfOne * fragments),
                       triangles + chosen(budget.triangles, kTrianglesOfOne * fragments)};
     // What cannot break gives nothing back.
     const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };

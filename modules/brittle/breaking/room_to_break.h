@@ -9,6 +9,7 @@ namespace brittle {
 // 0: chosen by what the contents are.
 struct BreakingBudget {
     uint32_t fragments = 0;      // that there are at a time
+    uint32_t faces = 0;          // of their hulls
     uint32_t triangles = 0;      // of their surfaces
     uint32_t step_bodies = 0;    // that break in a step, at most MOST_BREAKING; others wait
     uint32_t step_triangles = 0; // of their surfaces; a body with more never breaks

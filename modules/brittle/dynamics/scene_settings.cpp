@@ -37,6 +37,19 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     return s;
 }
 
+WorldBudget budgetOf(const SceneDescription& scene, uint32_t group_size) {
+    const BudgetDescription& b = scene.budgets;
+    WorldBudget budget = {b.pairs, b.contacts, group_size, {}};
+    budget.breaking = {.fragments = b.fragments,
+                       .faces = b.fragment_faces,
+                       .triangles = b.fragment_triangles,
+                       .step_bodies = b.breaking_bodies,
+                       .step_triangles = b.breaking_triangles,
+                       .step_sites = b.breaking_sites,
+                       .most_fragments = b.most_fragments};
+    return budget;
+}
+
 std::vector<std::string> effectsWithout(const SceneDescription& scene) {
     constexpr EffectSet kThere = {Effect::Gravity,    Effect::Contacts, Effect::Friction, Effect::Restitution,
                                   Effect::Ccd,        Effect::Sleeping, Effect::Drag,     Effect::ImpactFracture,

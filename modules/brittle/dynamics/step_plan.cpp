@@ -1,5 +1,7 @@
 #include "modules/brittle/dynamics/step_plan.h"
 
+#include "modules/brittle/dynamics/count_names.h"
+
 #include <algorithm>
 
 namespace brittle {
@@ -11,35 +13,14 @@ using engine::TracedCommand;
 constexpr std::string_view kSizes[] = {"lanes",        "groups",    "a lane each", "a block each",
                                        "a group each", "arguments", "fill",        "copy"};
 
-struct CountName {
-    uint32_t count;
-    const char* name;
-};
-
-constexpr CountName kCounts[] = {{COUNT_BOXES, "boxes"},
-                                 {COUNT_BOX_PAIRS, "pairs"},
-                                 {COUNT_TREE_BOXES, "boxes of the tree"},
-                                 {COUNT_TREE_PAIRS, "pairs of the tree"},
-                                 {COUNT_LONG_LISTS, "long lists"},
-                                 {COUNT_RADIX, "digits"},
-                                 {COUNT_CONTACTS, "contacts"},
-                                 {COUNT_FRESH_PAIRS, "fresh pairs"},
-                                 {COUNT_BODIES, "bodies"},
-                                 {COUNT_ONCE, "once, unless all sleep"},
-                                 {COUNT_AWAKE, "bodies awake"},
-                                 {COUNT_SWIFT, "contacts, where a body is fast"},
-                                 {COUNT_SOLVED_APART, "islands, and all else"}};
-
-std::string nameOfCount(uint64_t count) {
-    if (count >= COUNT_FIRST_COLOR && count < COUNT_FIRST_COLOR + WIDE_COLORS)
-        return "contacts of color " + std::to_string(count - COUNT_FIRST_COLOR);
-    const auto found = std::ranges::find(kCounts, count, &CountName::count);
-    return found == std::end(kCounts) ? "count " + std::to_string(count) : found->name;
+bool holds(const BufferView& range, const BufferView& view) {
+    return range.buffer != nullptr && range.buffer == view.buffer && view.offset >= range.offset &&
+           view.offset < range.offset + range.size;
 }
 
 class Planner {
 public:
-    explicit Planner(const WorldBuffers& buffers) : b_(buffers) {}
+    explicit Planner(const PlannedMemory& memory) : memory_(memory) {}
 
     Pass passOf(const TracedCommand& command) const {
         Pass pass;
@@ -60,12 +41,9 @@ public:
 private:
     // Of what holds the view, wherever in it the view begins.
     std::string nameOf(const BufferView& view) const {
-        const auto holds = [&](const NamedBuffer& named) {
-            return named.bytes != 0 && named.view.buffer == view.buffer && view.offset >= named.view.offset &&
-                   view.offset < named.view.offset + named.view.size;
-        };
-        const auto found = std::ranges::find_if(b_.named, holds);
-        return found == b_.named.end() ? "" : found->name;
+        const auto found = std::ranges::find_if(
+            memory_.named, [&](const NamedBuffer& named) { return named.bytes != 0 && holds(named.view, view); });
+        return found == memory_.named.end() ? "" : found->name;
     }
 
     void setSize(const TracedCommand& command, Pass& pass) const {
@@ -74,12 +52,17 @@ private:
         pass.size = kKnown[static_cast<size_t>(command.kind)];
         if (command.kind != Kind::Indirect) return;
         pass.counted_by = nameOf(command.arguments);
-        if (command.arguments.buffer != b_.args.buffer) return;
-        // As Recorder lays them out: nine words a count, three of each kind.
+        if (holds(memory_.args, command.arguments)) setCounted(command.arguments, memory_.args, &nameOfCount, pass);
+        if (holds(memory_.fracture_args, command.arguments))
+            setCounted(command.arguments, memory_.fracture_args, &nameOfFractureCount, pass);
+    }
+
+    // As Recorder lays arguments out: nine words a count, three of each kind.
+    static void setCounted(const BufferView& arguments, const BufferView& all, std::string (*nameOf)(uint64_t), Pass& pass) {
         constexpr PassSize kEach[] = {PassSize::LaneEach, PassSize::BlockEach, PassSize::GroupEach};
-        const uint64_t word = (command.arguments.offset - b_.args.offset) / 4;
+        const uint64_t word = (arguments.offset - all.offset) / 4;
         pass.size = kEach[word % 9 / 3];
-        pass.counted_by = nameOfCount(word / 9);
+        pass.counted_by = nameOf(word / 9);
     }
 
     Pass withTransfers(const TracedCommand& command, Pass pass) const {
@@ -103,7 +86,7 @@ private:
         return constants;
     }
 
-    const WorldBuffers& b_;
+    const PlannedMemory& memory_;
 };
 
 } // namespace
@@ -124,13 +107,13 @@ uint64_t StepPlan::bytesOf(std::optional<Effect> effect) const {
     return sum;
 }
 
-StepPlan planOf(std::span<const TracedCommand> trace, const WorldBuffers& buffers, std::vector<std::string> kernels) {
-    StepPlan plan = {buffers.sizes.effects, {}, {}, std::move(kernels)};
-    const Planner planner(buffers);
+StepPlan planOf(std::span<const TracedCommand> trace, const PlannedMemory& memory, std::vector<std::string> kernels) {
+    StepPlan plan = {memory.effects, {}, {}, std::move(kernels)};
+    const Planner planner(memory);
     for (const TracedCommand& command : trace)
         plan.passes.push_back(planner.passOf(command));
-    for (const NamedBuffer& named : buffers.named)
-        plan.buffers.push_back({named.name, named.bytes, named.asked_by});
+    for (const NamedBuffer& named : memory.named)
+        plan.buffers.push_back({named.name, named.bytes, named.asked_by, named.is_shared});
     return plan;
 }
 

@@ -37,6 +37,7 @@ struct PlannedBuffer {
     std::string name;
     uint64_t bytes = 0;             // 0: a binding of this name is the dummy
     std::optional<Effect> asked_by; // none: every world has it
+    bool is_shared = false;         // by lists of which one is done with before another begins: PassBuffer::slot tells which
     bool operator==(const PlannedBuffer&) const = default;
 };
 
@@ -51,6 +52,13 @@ struct StepPlan {
     bool operator==(const StepPlan&) const = default;
 };
 
-StepPlan planOf(std::span<const engine::TracedCommand> trace, const WorldBuffers& buffers, std::vector<std::string> kernels);
+// All that commands of a step may name.
+struct PlannedMemory {
+    EffectSet effects;
+    std::vector<NamedBuffer> named;
+    engine::BufferView args, fracture_args; // of dispatches; of those of fracture, where there is any
+};
+
+StepPlan planOf(std::span<const engine::TracedCommand> trace, const PlannedMemory& memory, std::vector<std::string> kernels);
 
 } // namespace brittle

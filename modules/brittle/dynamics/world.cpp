@@ -3,12 +3,15 @@
 #include "modules/brittle/breaking/breaking.h"
 #include "modules/brittle/dynamics/body_order.h"
 #include "modules/brittle/dynamics/step.h"
+#include "modules/brittle/dynamics/step_failure.h"
+#include "modules/brittle/dynamics/world_state.h"
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/upload.h"
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace brittle {
 namespace {
@@ -18,6 +21,7 @@ using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
 
+constexpr size_t kPairsInState = 3;                        // which of the lists of a state it is
 constexpr uint32_t kPairsPerPiece = 9, kLeastPairs = 1024; // as piles have them; there is more room made where it is needed
 
 uint64_t hashOf(std::span<const std::byte> bytes) {
@@ -37,7 +41,7 @@ public:
 
     // Bodies that can, break from now on; to be called before anything is recorded.
     Result<void> makeBreakable(const RoomToBreak& room) {
-        auto breaking = Breaking::create(device_, contents_, room, b_.sizes.pairs, budget_.group_size);
+        auto breaking = Breaking::create(device_, contents_, room, b_.sizes, budget_.group_size);
         if (!breaking) return breaking.error();
         breaking_ = std::move(*breaking);
         to_break_ = room;
@@ -60,23 +64,18 @@ public:
     }
 
     Result<void> step(uint32_t steps) override {
-        const uint64_t wanted = made_ + steps;
-        while (made_ < wanted) {
-            for (uint64_t k = made_; k < wanted; k++)
-                if (auto done = submit(k & 1); !done) return done;
-            auto words = takeStock();
-            if (!words) return words.error();
-            if (const uint32_t stopped = (*words)[STATUS_STOPPED_BODY]; stopped != 0) return forget(stopped - 1);
-            const uint32_t needed = (*words)[STATUS_NEEDED + COUNT_BOX_PAIRS];
-            const bool lacks_pairs = (*words)[STATUS_FAILED] != 0 && needed > b_.sizes.pairs;
-            const bool can_grow = budget_.pairs == 0 && needed <= mostPairs(device_);
-            const auto mended = lacks_pairs && can_grow ? grow(needed) : failureOf(*words);
-            if (!mended) return mended;
-        }
+        if (auto done = advance(steps); !done) return done;
+        return settle();
+    }
+
+    Result<void> advance(uint32_t steps) override {
+        for (uint32_t k = 0; k < steps; ++k, ++ahead_)
+            if (auto done = submit((made_ + ahead_) & 1); !done) return done;
         return {};
     }
 
     Result<std::vector<gpu::BodyState>> bodies() override {
+        if (auto settled = settle(); !settled) return settled.error();
         auto states = readStates();
         if (!states) return states;
         std::vector<gpu::BodyState> as_added = *states;
@@ -86,6 +85,7 @@ public:
     }
 
     Result<std::vector<BodyFragment>> fragments() override {
+        if (auto settled = settle(); !settled) return settled.error();
         if (!breaking_) return std::vector<BodyFragment>();
         auto read = fragments_.read(device_, breaking_->breakable(), slots_, broken_);
         if (!read) return read;
@@ -102,13 +102,18 @@ public:
     }
 
     Result<WorldCounts> counts() override {
+        if (auto settled = settle(); !settled) return settled.error();
         std::vector<uint32_t> words(STATUS_WORDS), args(9 * COUNT_TOTAL), colors(COLOR_WORDS);
         std::vector<Fetch> wanted = {{b_.counts, words.data(), 4 * words.size()}, {b_.args, args.data(), 4 * args.size()}};
         if (has(Effect::Contacts)) wanted.push_back({b_.step.color_start, colors.data(), 4 * colors.size()});
+        std::vector<uint32_t> breaking_args(breaking_ ? 9 * COUNT_TOTAL : 0);
+        if (breaking_) wanted.push_back({breaking_->arguments(), breaking_args.data(), 4 * breaking_args.size()});
         if (auto read = fetch(device_, wanted); !read) return read.error();
         WorldCounts c = {slots_, b_.sizes.pieces, words[COUNT_BOX_PAIRS], words[COUNT_CONTACTS], words[COUNT_FRESH_PAIRS]};
         for (uint32_t k = COUNT_BOX_PAIRS; k <= COUNT_SOLVED_APART; k++)
             c.groups += args[9 * k] * args[9 * k + 1];
+        for (size_t k = 0; k < breaking_args.size(); k += 9)
+            c.breaking_groups += breaking_args[k] * breaking_args[k + 1];
         c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
         c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers + fragments_made_ - broken_;
         c.colorless = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_LACKED];
@@ -118,6 +123,7 @@ public:
     }
 
     Result<Breaks> breaks() override {
+        if (auto settled = settle(); !settled) return settled.error();
         if (!breaking_ || !has(Effect::Events)) return Breaks();
         auto told = breaking_->tell(heard_);
         if (!told) return told.error();
@@ -129,6 +135,7 @@ public:
     }
 
     Result<std::vector<std::array<uint32_t, 2>>> pairs() override {
+        if (auto settled = settle(); !settled) return settled.error();
         auto counted = counts();
         if (!counted) return counted.error();
         std::vector<std::array<uint32_t, 2>> pairs(counted->pairs);
@@ -143,7 +150,10 @@ public:
         return pairs;
     }
 
-    Result<std::vector<engine::Timing>> timings() override { return commands_[(made_ + 1) & 1]->timings(); }
+    Result<std::vector<engine::Timing>> timings() override {
+        if (auto settled = settle(); !settled) return settled.error();
+        return commands_[(made_ + 1) & 1]->timings();
+    }
     // Of the first step; the second is the same with the two memories of contacts exchanged. Recorded and not submitted.
     Result<StepPlan> plan() override {
         engine::Commands commands(device_);
@@ -152,7 +162,7 @@ public:
         Recorder recorder(commands, kernels_, b_.counts, b_.args);
         if (auto recorded = recordStep(recorder, 0); !recorded) return recorded.error();
         if (auto recorded = recorder.status(); !recorded) return recorded.error();
-        return planOf(commands.trace(), b_, kernels_.kernelNames());
+        return planOf(commands.trace(), memory(), kernels_.kernelNames());
     }
 
     Result<std::vector<double>> measure(uint32_t steps) override {
@@ -167,30 +177,17 @@ public:
     uint32_t dispatches() const override { return commands_[0]->dispatchCount(); }
 
     Result<std::vector<std::byte>> save() override {
-        std::vector<std::byte> state(stateBytes());
-        std::vector<Fetch> wanted;
-        size_t at = 0;
-        for (const BufferView& view : stateViews()) {
-            wanted.push_back({view, state.data() + at, view.size});
-            at += view.size;
-        }
-        if (auto read = fetch(device_, wanted); !read) return read.error();
-        return state;
+        if (auto settled = settle(); !settled) return settled.error();
+        return readState(device_, stateViews(), heard_);
     }
 
     Result<void> restore(std::span<const std::byte> state) override {
-        if (state.size() != stateBytes())
-            return Error{ErrorCode::BadInput, "a state of " + std::to_string(state.size()) + " bytes, this world's has " +
-                                                  std::to_string(stateBytes()) +
-                                                  "; restore it into a world of the same contents"};
-        Upload upload;
-        const auto views = stateViews();
-        size_t at = 0;
-        for (const BufferView& view : views) {
-            upload.add(state.subspan(at, view.size), view);
-            at += view.size;
-        }
-        if (auto done = upload.send(device_); !done) return done;
+        const auto head = headOf(state, stateViews());
+        if (!head) return head.error();
+        if (auto room = growFor(*head); !room) return room;
+        if (auto done = writeState(device_, state, stateViews()); !done) return done;
+        ahead_ = 0;
+        heard_ = head->heard;
         auto words = takeStock();
         if (!words) return words.error();
         fragments_.forget(); // as many may have broken in another way
@@ -198,6 +195,7 @@ public:
     }
 
     Result<uint64_t> hash() override {
+        if (auto settled = settle(); !settled) return settled.error();
         const auto states = readStates();
         if (!states) return states.error();
         return hashOf(std::as_bytes(std::span(*states)));
@@ -249,6 +247,28 @@ private:
         return commands.wait();
     }
 
+    // Finds out what has become of steps that were submitted. Where one did not fit, none after it was made: with more room
+    // they are made now.
+    Result<void> settle() {
+        const uint64_t wanted = made_ + std::exchange(ahead_, 0);
+        while (made_ < wanted) {
+            auto words = takeStock();
+            if (!words) return words.error();
+            if (const uint32_t stopped = (*words)[STATUS_STOPPED_BODY]; stopped != 0) return forget(stopped - 1);
+            if (auto mended = mend(*words); !mended) return mended;
+            for (uint64_t k = made_; k < wanted; k++)
+                if (auto done = submit(k & 1); !done) return done;
+        }
+        return {};
+    }
+
+    Result<void> mend(const std::vector<uint32_t>& words) {
+        const uint32_t needed = words[STATUS_NEEDED + COUNT_BOX_PAIRS];
+        const bool lacks_pairs = words[STATUS_FAILED] != 0 && needed > b_.sizes.pairs;
+        const bool can_grow = budget_.pairs == 0 && needed <= mostPairs(device_);
+        return lacks_pairs && can_grow ? grow(needed) : failureOf(words);
+    }
+
     // Fragments keep their slots.
     uint32_t bodyAsAdded(uint32_t slot) const { return slot < order_.body_at.size() ? order_.body_at[slot] : slot; }
     uint32_t pieceAsAdded(uint32_t slot) const { return slot < order_.piece_at.size() ? order_.piece_at[slot] : slot; }
@@ -263,21 +283,32 @@ private:
 
     // Room for more pairs than that, and everything as it was.
     Result<void> grow(uint32_t needed) {
-        const auto saved = save();
+        const auto saved = readState(device_, stateViews(), heard_);
         if (!saved) return saved.error();
-        const std::vector<BufferView> was = stateViews();
-        const uint32_t room = std::min(needed + needed / 2, mostPairs(device_));
-        auto larger = makeWorldBuffers(device_, contents_, room, budget_.contacts, b_.sizes.effects);
+        if (auto made = makeRoom(std::min(needed + needed / 2, mostPairs(device_))); !made) return made;
+        if (auto done = writeState(device_, *saved, stateViews()); !done) return done;
+        return record();
+    }
+
+    // A state of when there was more room than there is now.
+    Result<void> growFor(const StateHead& state) {
+        if (!has(Effect::Contacts)) return {};
+        const uint64_t pairs = state.sizes[kPairsInState] / sizeof(std::array<uint32_t, 2>);
+        if (pairs <= b_.sizes.pairs) return {};
+        if (budget_.pairs != 0 || pairs > mostPairs(device_))
+            return Error{ErrorCode::Capacity, "a state with room for " + std::to_string(pairs) +
+                                                  " pairs, this world has room for " + std::to_string(b_.sizes.pairs) +
+                                                  "; raise the budget of pairs"};
+        if (auto made = makeRoom(static_cast<uint32_t>(pairs)); !made) return made;
+        return record();
+    }
+
+    // All anew, as it was in the beginning.
+    Result<void> makeRoom(uint32_t pairs) {
+        auto larger = makeWorldBuffers(device_, contents_, pairs, budget_.contacts, b_.sizes.effects);
         if (!larger) return larger.error();
         std::swap(b_, *larger);
-        if (breaking_)
-            if (auto made = makeBreakable(to_break_); !made) return made;
-        Upload upload;
-        const std::vector<BufferView> now = stateViews();
-        for (size_t k = 0, at = 0; k < was.size(); at += was[k].size, k++)
-            upload.add(std::span(*saved).subspan(at, was[k].size), now[k].sub(0, was[k].size));
-        if (auto done = upload.send(device_); !done) return done;
-        return record();
+        return breaking_ ? makeBreakable(to_break_) : Result<void>();
     }
 
     // How many steps the device has made; the counts of the last.
@@ -305,43 +336,30 @@ private:
     }
 
     Result<void> failureOf(const std::vector<uint32_t>& words) const {
-        if (words[STATUS_FAILED] == 0) return {};
-        const uint32_t needed = words[STATUS_NEEDED + COUNT_BOX_PAIRS];
-        if (needed > b_.sizes.pairs)
-            return Error{ErrorCode::Capacity,
-                         "step " + std::to_string(made_ + 1) + " finds " + std::to_string(needed) +
-                             " pairs of pieces near each other, there is room for " + std::to_string(b_.sizes.pairs) +
-                             (budget_.pairs == 0 ? ", the most of this device; use fewer pieces or spread them out"
-                                                 : "; raise the budget of pairs")};
-        if (const uint32_t contacts = words[STATUS_NEEDED + COUNT_CONTACTS]; contacts > b_.sizes.contacts)
-            return Error{ErrorCode::Capacity, "step " + std::to_string(made_ + 1) + " finds " + std::to_string(contacts) +
-                                                  " contacts, there is room for " + std::to_string(b_.sizes.contacts) +
-                                                  "; raise the budget of contacts"};
-        return Error{ErrorCode::Capacity, "in step " + std::to_string(made_ + 1) +
-                                              " a piece is near more than some ten thousand" +
-                                              " others, which no lane can walk through; use coarser meshes, or smaller bodies"};
+        return brittle::failureOf(words, b_.sizes, {made_ + 1, budget_.pairs != 0});
     }
 
-    std::vector<BufferView> stateViews() const {
-        std::vector<BufferView> views = {b_.bodies, b_.steps};
+    std::vector<StateView> stateViews() const {
+        std::vector<StateView> views = {{b_.bodies}, {b_.steps}};
         if (!has(Effect::Contacts)) return views;
         for (const PairMemory& memory : b_.memory)
-            for (const BufferView& view : {memory.count, memory.pairs, memory.contacts})
-                views.push_back(view);
+            views.insert(views.end(), {{memory.count}, {memory.pairs, true}, {memory.contacts, true}});
         if (!breaking_) return views;
         for (const BufferView& view :
              {b_.shapes, b_.pieces, b_.hull_records, b_.hull_vertices, b_.hull_faces, b_.hull_corners, b_.hull_edges})
-            views.push_back(view);
-        std::ranges::copy(breaking_->stateViews(), std::back_inserter(views));
+            views.push_back({view});
+        for (const BufferView& view : breaking_->stateViews())
+            views.push_back({view});
         return views;
     }
-    bool has(Effect effect) const { return b_.sizes.effects.has(effect); }
-    size_t stateBytes() const {
-        size_t bytes = 0;
-        for (const BufferView& view : stateViews())
-            bytes += view.size;
-        return bytes;
+    PlannedMemory memory() const {
+        PlannedMemory memory = {b_.sizes.effects, b_.named, b_.args, {}};
+        if (!breaking_) return memory;
+        std::ranges::copy(breaking_->buffers(), std::back_inserter(memory.named));
+        memory.fracture_args = breaking_->arguments();
+        return memory;
     }
+    bool has(Effect effect) const { return b_.sizes.effects.has(effect); }
 
     engine::Device& device_;
     engine::KernelLibrary kernels_;
@@ -354,6 +372,7 @@ private:
     bool submitted_[2] = {false, false};
     bool times_passes_ = false;
     uint64_t made_ = 0;
+    uint64_t ahead_ = 0;                 // steps that were submitted since that was read
     std::unique_ptr<Breaking> breaking_; // where bodies break
     RoomToBreak to_break_;
     uint32_t heard_ = 0; // of what broke

@@ -36,8 +36,9 @@ struct WorldCounts {
     uint32_t groups = 0;    // workgroups that bodies, pairs, contacts and colors were dispatched over; none while all sleep
     uint32_t colors = 0;    // in use
     uint32_t colorless = 0; // contacts for which there was no color left; they are solved one by one
-    uint32_t broken = 0;    // bodies that have broken since the beginning
-    uint32_t fragments = 0; // that they became; some may have broken again
+    uint32_t breaking_groups = 0; // workgroups over what broke in it; none where nothing did
+    uint32_t broken = 0;          // bodies that have broken since the beginning
+    uint32_t fragments = 0;       // that they became; some may have broken again
 };
 
 class World {
@@ -51,6 +52,10 @@ public:
     // can bind no more: the step that did not fit has not been made. BadInput, told once, for
     // a body, by its index as added, whose motion outgrew floats: it stays where it was, at rest.
     virtual engine::Result<void> step(uint32_t steps = 1) = 0;
+
+    // Makes so many steps, waits, and reads nothing back from the device. What the next other function is called for is true of
+    // all of these steps; an error of theirs is the one that it returns, and what step() makes good it makes good.
+    virtual engine::Result<void> advance(uint32_t steps = 1) = 0;
 
     // In the order in which they were added; behind them slots of fragments, some of which may be empty (BODY_ABSENT).
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;
@@ -73,7 +78,9 @@ public:
     // of the plan, fills and copies left out.
     virtual engine::Result<std::vector<double>> measure(uint32_t steps) = 0;
 
-    // All that the next step depends on, as bytes; to be restored into a world of the same contents, settings and budget.
+    // All that the next step depends on, as bytes, to be restored into a world of the same contents, settings and budget. More
+    // room for pairs, made since or before, is no obstacle. Which events the host has been told of is part of it. Errors of
+    // restore: BadInput for a state of something else, Capacity, Device.
     virtual engine::Result<std::vector<std::byte>> save() = 0;
     virtual engine::Result<void> restore(std::span<const std::byte> state) = 0;
     // Of the bytes of all bodies, in the order of their ids.

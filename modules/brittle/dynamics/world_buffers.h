@@ -43,6 +43,7 @@ struct NamedBuffer {
     engine::BufferView view;
     VkDeviceSize bytes = 0;         // 0: nobody asked for it, and the view is that of the dummy
     std::optional<Effect> asked_by; // none: every world has it
+    bool is_shared = false;         // by lists of which one is done with before another begins
 };
 
 struct WorldBuffers {

@@ -20,6 +20,7 @@ engine::Result<void> fetch(engine::Device& device, std::span<const Fetch> wanted
         at += (p.bytes + 15) / 16 * 16;
     }
     if (auto ok = commands.submitAndWait(); !ok) return ok;
+    device.countReadBack(at);
     at = 0;
     for (const Fetch& p : wanted) {
         if (p.bytes != 0) std::memcpy(p.target, buffer->mapped() + at, p.bytes);

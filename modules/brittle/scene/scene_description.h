@@ -119,6 +119,13 @@ struct BudgetDescription {
     uint32_t pieces = 0;
     uint32_t pairs = 0;
     uint32_t contacts = 0;
+    uint32_t fragments = 0;
+    uint32_t fragment_faces = 0;
+    uint32_t fragment_triangles = 0;
+    uint32_t most_fragments = 0;
+    uint32_t breaking_bodies = 0;
+    uint32_t breaking_sites = 0;
+    uint32_t breaking_triangles = 0;
     bool operator==(const BudgetDescription&) const = default;
 };
 

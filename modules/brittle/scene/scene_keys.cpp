@@ -102,6 +102,17 @@ constexpr SceneKey kBudgetKeys[] = {
     {"pieces", at<&BudgetDescription::pieces>, from(0, kMostElements), "", "convex ones, at most; 0: what the scene needs"},
     {"pairs", at<&BudgetDescription::pairs>, from(0, kMostElements), "", "of pieces that are near, at most; 0: what is needed"},
     {"contacts", at<&BudgetDescription::contacts>, from(0, kMostElements), "", "pairs that touch, at most; 0: what is needed"},
+    {"fragments", at<&BudgetDescription::fragments>, from(0, kMostElements), "", "that there are at a time; 0: 1024"},
+    {"fragment_faces", at<&BudgetDescription::fragment_faces>, from(0, kMostElements), "",
+     "of the hulls of all of them; 0: 24 for each"},
+    {"fragment_triangles", at<&BudgetDescription::fragment_triangles>, from(0, kMostElements), "",
+     "of the surfaces of all of them; 0: 96 for each"},
+    {"most_fragments", at<&BudgetDescription::most_fragments>, from(0, kMostElements), "", "of one body; 0: 256"},
+    {"breaking_bodies", at<&BudgetDescription::breaking_bodies>, from(0, 256), "",
+     "that break in one step, the others wait; 0: 16"},
+    {"breaking_sites", at<&BudgetDescription::breaking_sites>, from(0, kMostElements), "", "of all of them together; 0: 512"},
+    {"breaking_triangles", at<&BudgetDescription::breaking_triangles>, from(0, kMostElements), "",
+     "of their surfaces together, and a body with more never breaks; 0: 8192, or twice the largest surface"},
 };
 
 constexpr SceneKey kCameraKeys[] = {
