@@ -84,6 +84,7 @@ const std::vector<Row>& rows() {
          sizeof(gpu::BrokenBody),
          {MEMBER(BrokenBody, ids), MEMBER(BrokenBody, blow), MEMBER(BrokenBody, place), MEMBER(BrokenBody, along),
           MEMBER(BrokenBody, share)}},
+        {"Birth", sizeof(gpu::Birth), {MEMBER(Birth, site), MEMBER(Birth, turn), MEMBER(Birth, of)}},
         {"CrackLedger", sizeof(gpu::CrackLedger), {MEMBER(CrackLedger, outcome), MEMBER(CrackLedger, energies)}},
         {"BreakEvent",
          sizeof(gpu::BreakEvent),

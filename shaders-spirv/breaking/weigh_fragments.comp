@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/breaking_laws.glsl"
+#include "lib/half_edge.glsl"
 #include "lib/principal_axes.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
@@ -27,6 +28,7 @@ WRITES(10, uint, adopted); // by object
 UPDATES(11, BodyState, bodies);
 UPDATES(12, BodyShape, shapes);
 UPDATES(13, BreakableBody, breakable);
+WRITES(14, Birth, births);
 layout(push_constant) uniform Push {
     uint seed_low;
     uint seed_high;
@@ -106,6 +108,15 @@ void setBreakable(uint slot, uint f, Weighed w, uint parent, float unit) {
     breakable[slot].turn = turnBack(w.axes);
 }
 
+void setBirth(uint slot, uint f, uint object, float unit) {
+    uint parent = broken[object].ids.x;
+    BreakableBody whole = breakable[parent];
+    vec3 site = vec3(inTile(sites[fragments[f].fate.z].xyz) - ivec3(1 << 23)) / kHalfEdge * unit + breaking[object].center.xyz;
+    births[slot].site = vec4(turned(bodies[parent].turn, turned(whole.turn, site - whole.balance.xyz)), 0.0);
+    births[slot].turn = bodies[slot].turn;
+    births[slot].of = uvec4(parent, steps[STEPS_MADE], 0u, 0u);
+}
+
 void main() {
     uint f = flatIndex();
     if (f >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
@@ -120,5 +131,6 @@ void main() {
     bodies[slot] = stateOf(w, body, whole, breaking[object].center.xyz);
     setInertia(slot, w, shapes[parent]);
     setBreakable(slot, f, w, parent, unit);
+    setBirth(slot, f, object, unit);
     atomicAdd(steps[STEPS_FRAGMENTS], 1u);
 }

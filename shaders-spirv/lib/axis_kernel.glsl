@@ -2,6 +2,7 @@
 #ifndef AXIS_KERNEL_GLSL
 #define AXIS_KERNEL_GLSL
 #include "shared/body.h"
+#include "shared/effects.h"
 #include "shared/hull.h"
 #include "shared/narrow_phase.h"
 
@@ -19,7 +20,8 @@ READS(5, vec4, hull_vertices);
 READS(6, HullFace, hull_faces);
 READS(7, uint, hull_corners);
 READS(8, uvec4, hull_edges);
-WRITES(9, AxisRecord, axis_records);
+UPDATES(9, AxisRecord, axis_records);
+layout(constant_id = SIBLINGS_ID) const uint kSiblings = 0u;
 layout(push_constant) uniform Push { NarrowPhasePush push; };
 
 #include "lib/hull_pair.glsl"
@@ -52,6 +54,9 @@ void loadHulls(uint k) {
     }
     barrier();
 }
+
+// By separate_siblings.
+bool isKnown(uint k) { return kSiblings != 0u && axis_records[k].info.x != AXIS_UNKNOWN; }
 
 bool isHit(Seen seen) { return is_fast && seen.separation > 0.0 && seen.enter >= 0.0 && seen.enter <= min(seen.leave, 1.0); }
 

@@ -88,7 +88,7 @@ void writeFound(uint k, Seen seen) {
 
 void main() {
     uint k = flatGroup();
-    if (k >= min(pair_count[0], push.capacity)) return;
+    if (k >= min(pair_count[0], push.capacity) || isKnown(k)) return;
     loadHulls(k);
     Seen seen = searchAll();
     if (isApart(seen)) {

@@ -39,7 +39,7 @@ void writeFound(uint k, Seen seen) {
 
 void main() {
     uint k = flatGroup();
-    if (k >= min(pair_count[0], push.capacity)) return;
+    if (k >= min(pair_count[0], push.capacity) || isKnown(k)) return;
     loadHulls(k);
     Seen seen = seeFixedAxes(min(push.fixed_axes, uint(SUPPORT_DIRECTIONS)));
     if (isApart(seen)) {

@@ -33,6 +33,13 @@ struct BreakableBody {
     vec4 turn;    // from the frame of its vertices to its own axes
 };
 
+// Of a fragment: between any two of one body lay the plane halfway between their sites.
+struct Birth {
+    vec4 site; // of its cell, world axes, from the center of mass of what broke
+    vec4 turn; // that its body had then
+    uvec4 of;  // the slot of the body that broke, the step that it broke in, counted from 1; 0 for what is no fragment
+};
+
 // A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so
 // that who pays for its cracks is certain; the others wait for a step, as does what there is no room for.
 struct BlowRecord {
@@ -101,6 +108,6 @@ GPU_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
               sizeof(gpu::BlowRecord) == 64);
-static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128);
+static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128 && sizeof(gpu::Birth) == 48);
 #endif
 #endif

@@ -7,4 +7,6 @@
 #define CCD_ID 12
 #define DRAG_ID 13 /* the bits of a float: half of density times coefficient times pi, kg/m3; 0: off */
 
+#define SIBLINGS_ID 14 /* 1: axes of fragments that have just come apart may be known before they are looked for */
+
 #endif

@@ -13,6 +13,7 @@ GPU_NAMESPACE_BEGIN
 #define AXIS_EDGES 3u
 #define AXIS_FIXED 4u
 #define AXIS_KIND_SHIFT 24u
+#define AXIS_UNKNOWN 0xffffffffu /* a feature: nobody has found the axis yet */
 
 // The axis along which a pair touches, in the frame of A: its body's axes, from the center of A's hull.
 struct AxisRecord {

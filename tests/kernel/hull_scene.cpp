@@ -204,14 +204,17 @@ std::vector<gpu::Manifold> manifoldsOf(const HullScene& scene, const NarrowPhase
                          corners = bufferOf(set.corners), edges = bufferOf(set.edges), piece = bufferOf(pieces),
                          body = bufferOf(states), pairs = bufferOf(scene.pairs),
                          pair_count = bufferOf(std::vector<uint32_t>{count}), manifolds = blankBuffer<gpu::Manifold>(count),
-                         axes = blankBuffer<gpu::AxisRecord>(count), arguments = blankBuffer<uint32_t>(8);
+                         axes = blankBuffer<gpu::AxisRecord>(count), arguments = blankBuffer<uint32_t>(8),
+                         births = bufferOf(run.births.empty() ? std::vector<gpu::Birth>(1) : run.births),
+                         steps = bufferOf(std::vector<uint32_t>{run.steps, 0, 0, 0});
+    brittle::NarrowPhaseInput input = {{records, vertices, faces, corners, edges}, piece, body, pairs, pair_count, count};
+    if (!run.births.empty()) input.siblings = {births, steps};
     engine::KernelLibrary& library = run.kernels ? *run.kernels : kernels();
     const auto start = std::chrono::steady_clock::now();
     onDevice([&](engine::Commands& commands) {
         for (uint32_t k = 0; k < run.repeats; ++k) {
-            const auto recorded = brittle::recordNarrowPhase(
-                commands, library, {{records, vertices, faces, corners, edges}, piece, body, pairs, pair_count, count},
-                run.options, {manifolds, axes, arguments}, run.many_lanes);
+            const auto recorded =
+                brittle::recordNarrowPhase(commands, library, input, run.options, {manifolds, axes, arguments}, run.many_lanes);
             EXPECT_TRUE(recorded) << recorded.error().message;
         }
     });

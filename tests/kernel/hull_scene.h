@@ -4,6 +4,7 @@
 #include "modules/brittle/dynamics/hull_set.h"
 #include "modules/brittle/dynamics/narrow_phase.h"
 #include "shaders-spirv/shared/body.h"
+#include "shaders-spirv/shared/breaking.h"
 #include "shaders-spirv/shared/contact.h"
 #include "shaders-spirv/shared/narrow_phase.h"
 #include "tests/kernel/lab.h"
@@ -58,6 +59,8 @@ struct NarrowPhaseRun {
     bool many_lanes = false;
     uint32_t repeats = 1;                     // of the dispatches, for times
     engine::KernelLibrary* kernels = nullptr; // the test program's own if null
+    std::vector<gpu::Birth> births = {};      // where given, of bodies: kernels specialized with SIBLINGS_ID look at them
+    uint32_t steps = 0;                       // that were made
 };
 // Milliseconds of all repeats go to `milliseconds` where that is given.
 std::vector<gpu::Manifold> manifoldsOf(const HullScene& scene, const NarrowPhaseRun& run = {}, double* milliseconds = nullptr);

@@ -15,7 +15,7 @@ void recordAdoption(Recorder& record, const BrokenParts& parts, const BreakableW
     record.run("weigh_fragments", Length::counted(COUNT_FRAGMENTS), push,
                {record.counts(), parts.fragments, parts.sites, parts.colliders.records, parts.colliders.vertices,
                 parts.breaking, parts.broken, parts.rooms, world.cards, world.steps, adopted, world.bodies, world.shapes,
-                world.breakable});
+                world.breakable, world.births});
     record.runGroups("adopt_hulls", groups, engine::NoPush{},
                      {record.counts(), parts.fragments, parts.sites, parts.breaking, parts.rooms, world.breakable,
                       parts.colliders.records, parts.colliders.faces, parts.colliders.vertices, parts.colliders.corners,

@@ -27,6 +27,7 @@ struct BreakableWorld {
     engine::BufferView vertices;  // SceneVertex
     engine::BufferView cards;     // MaterialCard
     engine::BufferView steps;     // STEPS_*
+    engine::BufferView births;    // Birth, by slot of a body
 };
 
 // How strong fragments are is drawn by this seed; for so long no blow breaks them.

@@ -150,8 +150,8 @@ private:
                                    p_.breaking,
                                    p_.broken,
                                    p_.rooms};
-        const BreakableWorld world = {s.b.bodies,   s.b.shapes,          s.b.pieces, s.b.hulls(),
-                                      l_.breakable, l_.surface_vertices, l_.cards,   s.b.steps};
+        const BreakableWorld world = {s.b.bodies,          s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable,
+                                      l_.surface_vertices, l_.cards,   s.b.steps,  s.b.births};
         const auto hold = s.has(Effect::Refracture) ? static_cast<float>(s.settings.blow_time) : kForEver;
         const FragmentSettings settings = {s.settings.breaking_seed, hold, static_cast<float>(s.settings.dt)};
         recordAdoption(record, parts, world, settings, p_.adopted);

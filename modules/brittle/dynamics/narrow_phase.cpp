@@ -56,6 +56,17 @@ Result<Kernels> kernelsOf(engine::KernelLibrary& library, uint32_t fixed_axes, b
     return Kernels{*size, *axes, *manifolds};
 }
 
+Result<void> recordSiblings(engine::Commands& commands, engine::KernelLibrary& library, const NarrowPhaseInput& input,
+                            const gpu::NarrowPhasePush& push, const NarrowPhaseOutput& output) {
+    const auto kernel = library.get("separate_siblings");
+    if (!kernel) return kernel.error();
+    commands.dispatchIndirect(**kernel, output.arguments.sub(16, 12), push,
+                              {input.pair_count, input.pairs, input.pieces, input.bodies, input.hulls.records,
+                               input.hulls.vertices, input.hulls.faces, input.siblings->births, input.siblings->steps,
+                               output.axes});
+    return {};
+}
+
 } // namespace
 
 Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary& library, const NarrowPhaseInput& input,
@@ -70,6 +81,8 @@ Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary
         {g[0], g[1], g[2], 0}, options.speculative, options.duration, input.capacity, options.fixed_axes};
     const HullPools& hulls = input.hulls;
     commands.dispatchGroups(*kernels->size, 1, push, {input.pair_count, output.arguments});
+    if (input.siblings)
+        if (auto recorded = recordSiblings(commands, library, input, push, output); !recorded) return recorded;
     commands.dispatchIndirect(*kernels->axes, output.arguments.sub(0, 12), push,
                               {input.pair_count, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
                                hulls.faces, hulls.corners, hulls.edges, output.axes});

@@ -14,6 +14,7 @@
 #include "modules/brittle/mesh/mesh.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace brittle {
 
@@ -25,6 +26,12 @@ struct HullPools {
     engine::BufferView edges;    // gpu::uvec4
 };
 
+// Of fragments that have just come apart; kernels specialized with SIBLINGS_ID 1 want it, others do not look at it.
+struct NewSiblings {
+    engine::BufferView births; // gpu::Birth, by body
+    engine::BufferView steps;  // STEPS_*
+};
+
 struct NarrowPhaseInput {
     HullPools hulls;
     engine::BufferView pieces;     // gpu::PieceRecord
@@ -32,6 +39,7 @@ struct NarrowPhaseInput {
     engine::BufferView pairs;      // two uint32_t each: pieces, the lower one first, of different bodies
     engine::BufferView pair_count; // one uint32_t, on the device; at most `capacity` are looked at
     uint32_t capacity = 0;         // pairs that `pairs` and the outputs have room for
+    std::optional<NewSiblings> siblings = std::nullopt;
 };
 
 struct NarrowPhaseOptions {
@@ -53,7 +61,7 @@ constexpr uint32_t kNarrowPhaseArgumentBytes = 32;
 // Whether a pair has more lanes on it: where many run side by side.
 inline bool hasManyLanes(const engine::Device& device) { return device.subgroupSize() >= 32; }
 
-// Records the three kernels. BadInput for options out of range, Capacity for outputs that are too small.
+// Records the kernels. BadInput for options out of range, Capacity for outputs that are too small.
 engine::Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary& kernels,
                                        const NarrowPhaseInput& input, const NarrowPhaseOptions& options,
                                        const NarrowPhaseOutput& output, bool many_lanes);

@@ -36,6 +36,7 @@ engine::Result<void> recordPoints(const Step& s) {
     const StepBuffers& b = s.b.step;
     NarrowPhaseInput input = {
         s.b.hulls(), s.b.pieces, s.b.bodies, b.fresh_pairs, s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4), s.b.sizes.pairs};
+    if (s.has(Effect::ImpactFracture)) input.siblings = {s.b.births, s.b.steps};
     NarrowPhaseOptions options;
     options.speculative = static_cast<float>(s.settings.margin);
     options.duration = sweptFor(s);

@@ -69,6 +69,7 @@ std::vector<engine::SpecConstant> kernelConstants(const StepSettings& settings, 
             {CONTACTS_ID, on(Effect::Contacts)},
             {FRICTION_ID, on(Effect::Friction)},
             {CCD_ID, on(Effect::Ccd)},
+            {SIBLINGS_ID, on(Effect::ImpactFracture)},
             {DRAG_ID, effects.has(Effect::Drag) ? dragWord(settings) : 0}};
 }
 

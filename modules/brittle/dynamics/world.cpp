@@ -345,8 +345,8 @@ private:
         for (const PairMemory& memory : b_.memory)
             views.insert(views.end(), {{memory.count}, {memory.pairs, true}, {memory.contacts, true}});
         if (!breaking_) return views;
-        for (const BufferView& view :
-             {b_.shapes, b_.pieces, b_.hull_records, b_.hull_vertices, b_.hull_faces, b_.hull_corners, b_.hull_edges})
+        for (const BufferView& view : {b_.births, b_.shapes, b_.pieces, b_.hull_records, b_.hull_vertices, b_.hull_faces,
+                                       b_.hull_corners, b_.hull_edges})
             views.push_back({view});
         for (const BufferView& view : breaking_->stateViews())
             views.push_back({view});

@@ -3,6 +3,7 @@
 #include "modules/brittle/dynamics/sibling_contacts.h"
 #include "modules/brittle/dynamics/step_layout.h"
 #include "modules/brittle/fracture/upload.h"
+#include "shaders-spirv/shared/breaking.h"
 
 #include <algorithm>
 #include <string>
@@ -106,6 +107,7 @@ void makeLasting(Maker& maker, const WorldContents& c, WorldBuffers& b) {
     b.counts = make("counts", STATUS_WORDS, 4);
     b.args = make("arguments", 9 * COUNT_TOTAL, 4);
     b.steps = make("steps", STEPS_WORDS, 4);
+    b.births = maker.make("births", Effect::ImpactFracture, c.bodies.size(), sizeof(gpu::Birth));
     makeHulls(maker, c, b);
 }
 
@@ -149,7 +151,7 @@ Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b)
     if (auto begun = commands.begin(); !begun) return begun;
     for (const PairMemory& memory : b.memory)
         commands.fill(memory.count, 0);
-    for (const BufferView* view : {&b.counts, &b.args})
+    for (const BufferView* view : {&b.counts, &b.args, &b.births})
         commands.fill(*view, 0);
     upload.copy(commands, *staging);
     return commands.submitAndWait();

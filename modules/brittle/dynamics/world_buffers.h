@@ -51,6 +51,7 @@ struct WorldBuffers {
     engine::BufferView pieces, bodies, shapes;
     engine::BufferView counts, args; // as a fracture event's (shared/fracture.h), indices in shared/solver.h
     engine::BufferView steps;        // shared/solver.h, STEPS_*
+    engine::BufferView births;       // gpu::Birth, by slot of a body
     std::array<PairMemory, 2> memory;
     StepBuffers step;
     std::vector<NamedBuffer> named; // all of these, the dummy among them
