@@ -151,6 +151,11 @@ endforeach()
 kernel(primitives/weld_points.comp NAME weld_corners DEFINES WORDS=4 STRIDE=4)
 kernel(primitives/weld_points.comp NAME weld_sides DEFINES WORDS=2 STRIDE=2)
 
+# What becomes of what is small.
+foreach(name IN ITEMS step_dust allot_dust emit_dust age_debris list_debris wake_debris expire_debris)
+    kernel(effects/${name}.comp)
+endforeach()
+
 # Pools of a running world.
 foreach(name IN ITEMS return_ranges take_ranges)
     kernel(breaking/${name}.comp)

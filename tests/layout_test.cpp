@@ -7,6 +7,8 @@
 #include "shaders-spirv/shared/breaking.h"
 #include "shaders-spirv/shared/collider.h"
 #include "shaders-spirv/shared/contact.h"
+#include "shaders-spirv/shared/debris.h"
+#include "shaders-spirv/shared/dust.h"
 #include "shaders-spirv/shared/fragment_record.h"
 #include "shaders-spirv/shared/hull.h"
 #include "shaders-spirv/shared/material.h"
@@ -90,6 +92,15 @@ const std::vector<Row>& rows() {
          sizeof(gpu::BreakEvent),
          {MEMBER(BreakEvent, what), MEMBER(BreakEvent, made), MEMBER(BreakEvent, lacked), MEMBER(BreakEvent, sector),
           MEMBER(BreakEvent, offset), MEMBER(BreakEvent, along), MEMBER(BreakEvent, blow), MEMBER(BreakEvent, energies)}},
+        {"DustShare", sizeof(gpu::DustShare), {MEMBER(DustShare, volume), MEMBER(DustShare, cells)}},
+        {"DustParticle",
+         sizeof(gpu::DustParticle),
+         {MEMBER(DustParticle, sector), MEMBER(DustParticle, place), MEMBER(DustParticle, velocity),
+          MEMBER(DustParticle, birth)}},
+        {"DustPlane",
+         sizeof(gpu::DustPlane),
+         {MEMBER(DustPlane, sector), MEMBER(DustPlane, offset), MEMBER(DustPlane, normal)}},
+        {"DebrisClock", sizeof(gpu::DebrisClock), {MEMBER(DebrisClock, sector), MEMBER(DebrisClock, offset)}},
         {"BodyShape", sizeof(gpu::BodyShape), {MEMBER(BodyShape, pieces), MEMBER(BodyShape, inverse_inertia)}},
         {"MaterialCard", sizeof(gpu::MaterialCard), {MEMBER(MaterialCard, elastic), MEMBER(MaterialCard, cracks)}},
         {"HullRecord",

@@ -151,7 +151,7 @@ void main() {
     lane = gl_LocalInvocationID.x;
     if (f >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
     uvec4 room = rooms[f];
-    if (room[ROOM_BODY] == NO_INDEX) return;
+    if (room[ROOM_BODY] >= ROOM_OF_DUST) return;
     BreakableBody body = breakable[room[ROOM_BODY]];
     ColliderRecord collider = colliders[f];
     uint faces = room[ROOM_FACES];

@@ -47,7 +47,7 @@ void main() {
     uint f = flatGroup(), lane = gl_LocalInvocationID.x;
     if (f >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
     uvec4 room = rooms[f], range = fragments[f].range;
-    if (room[ROOM_BODY] == NO_INDEX) return;
+    if (room[ROOM_BODY] >= ROOM_OF_DUST) return;
     float unit = inversePower(breaking[objectOfFragment(f)].center.w);
     vec3 low = vec3(1e38), high = vec3(-1e38);
     for (uint k = lane; k < 3u * (range.z + range.w); k += GROUP_SIZE) {

@@ -1,9 +1,10 @@
 // How much crack each object has got, a workgroup an object: half of the new faces of its fragments, since each cut has two
 // sides. Sums in the order of fragments, by lanes that are always as many. What the blow cannot pay for does not break: cells of
-// a few sites may have more faces between them than the law of counts expects.
+// a few sites may have more faces between them than the law of counts expects. And how much of each is too small to be a body.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/smallest_piece.glsl"
 #include "lib/sum.glsl"
 #include "shared/breaking.h"
 #include "shared/fragment_record.h"
@@ -20,30 +21,39 @@ READS(6, uint, order);
 READS(7, FragmentRecord, fragments);
 WRITES(8, float, cracks); // m2; below 0 where the blow cannot pay for it, 0 where there is one piece
 WRITES(9, uint, owner_start);
+WRITES(10, DustShare, dust);
+layout(push_constant) uniform Push { float least_volume; }; // m3, of a body
 #define SORTED owners
 #define SORTED_COUNT COUNT_FRAGMENTS
 #include "lib/sorted_list.glsl"
 
-shared float sums[GROUP_SIZE];
+shared vec3 sums[GROUP_SIZE]; // of faces, of dust: volume and cells
 
 bool isAffordable(uint k, float area) { return cards[breakable[broken[k].ids.x].surface.w].cracks.y * area <= broken[k].share.x; }
+
+// In units of half a grid's edge.
+vec3 sumOf(uint first, uint last, uint lane, float scale) {
+    vec4 sum = vec4(0.0), lost = vec4(0.0);
+    for (uint r = first + lane; r < last; r += GROUP_SIZE) {
+        vec4 measure = fragments[order[r]].measure;
+        float small = isTooSmall(measure.x, scale, least_volume) ? 1.0 : 0.0;
+        addTo(sum, lost, vec4(measure.y - measure.z, small * measure.x, small, 0.0));
+    }
+    return sum.xyz;
+}
 
 void main() {
     uint k = flatGroup(), lane = gl_LocalInvocationID.x;
     if (k >= counts[COUNT_BREAKING]) return;
     uint first = firstFrom(k), last = firstFrom(k + 1u);
-    vec4 sum = vec4(0.0), lost = vec4(0.0);
-    for (uint r = first + lane; r < last; r += GROUP_SIZE) {
-        vec4 measure = fragments[order[r]].measure;
-        addTo(sum, lost, vec4(0.0, measure.y - measure.z, 0.0, 0.0));
-    }
-    sums[lane] = sum.y;
+    sums[lane] = sumOf(first, last, lane, breaking[k].center.w);
     barrier();
     if (lane != 0u) return;
-    float total = 0.0;
+    vec3 total = vec3(0.0);
     for (uint j = 0u; j < GROUP_SIZE; j++) total += sums[j];
-    float unit = 1.0 / breaking[k].center.w, area = 0.5 * total * unit * unit;
+    float unit = 1.0 / breaking[k].center.w, area = 0.5 * total.x * unit * unit;
     cracks[k] = isAffordable(k, area) ? area : -area;
+    dust[k] = DustShare(total.y * unit * unit * unit, total.z);
     owner_start[k] = first;
     if (k + 1u == counts[COUNT_BREAKING]) owner_start[k + 1u] = last;
 }

@@ -20,6 +20,7 @@ READS(6, uint, steps);
 UPDATES(7, uint, told); // how many so far
 WRITES(8, BreakEvent, ring);
 READS(9, uvec4, lacking);
+READS(10, DustShare, dust);
 
 // The first count of the event that was more than there is room for, and how much.
 uvec2 firstNeeded() {
@@ -31,6 +32,8 @@ uvec2 firstNeeded() {
 // What no step has room for stands behind all that were tried.
 uint whyWhole(uint k) { return k < counts[COUNT_BREAKING] ? ledger[k].outcome.x : uint(WHOLE_TOO_LARGE); }
 
+float densityOf(uint body) { return 1.0 / (bodies[body].offset.w * breakable[body].form.x); }
+
 BreakEvent eventOf(uint k) {
     BrokenBody hit = broken[k];
     uint body = hit.ids.x;
@@ -39,10 +42,11 @@ BreakEvent eventOf(uint k) {
     ivec3 sectors = sectorsIn(offset);
     BreakEvent event;
     event.what = uvec4(steps[STEPS_MADE], body, hit.ids.y, breakable[body].surface.w);
-    event.made = uvec4(why == 0u ? owner_start[k + 1u] - owner_start[k] : 0u, why, why == WHOLE_FAILED ? firstNeeded() : uvec2(0u));
+    uint cells = why == 0u ? owner_start[k + 1u] - owner_start[k] : 0u, small = why == 0u ? uint(dust[k].cells) : 0u;
+    event.made = uvec4(cells - small, why, why == WHOLE_FAILED ? firstNeeded() : uvec2(0u));
     event.lacked = why == WHOLE_NO_ROOM ? lacking[k] : uvec4(0u);
-    event.sector = ivec4(bodies[body].sector.xyz + sectors, 0);
-    event.offset = vec4(offsetWithin(offset, sectors), 0.0);
+    event.sector = ivec4(bodies[body].sector.xyz + sectors, int(small));
+    event.offset = vec4(offsetWithin(offset, sectors), why == 0u ? densityOf(body) * dust[k].volume : 0.0);
     event.along = hit.along;
     event.blow = hit.blow;
     event.energies = why == 0u ? ledger[k].energies : vec4(0.0);

@@ -124,6 +124,7 @@ void main() {
     if (slot == NO_INDEX) return;
     uint object = objectOfFragment(f), parent = broken[object].ids.x;
     adopted[object] = 1u; // all of an object say the same
+    if (slot == ROOM_OF_DUST) return;
     BodyState body = bodies[parent];
     BreakableBody whole = breakable[parent];
     float unit = inversePower(breaking[object].center.w);

@@ -67,14 +67,20 @@ struct CrackLedger {
     vec4 energies; // of the motion of both before and after, J that their cracks cost; w: m2 of this body's cracks
 };
 
+// Of an object that breaks, what of it is too small for a body.
+struct DustShare {
+    float volume; // m3
+    float cells;
+};
+
 // What the host is told of it. Of two that break each other, the first one's energies are those of both.
 struct BreakEvent {
     uvec4 what;   // step, counted from 1; body, what hit it, its material
-    uvec4 made;   // fragments, 0 where the body stayed whole; WHOLE_*, why it did; of WHOLE_FAILED the count of fracture that
-                  // there was no room for and how much it would have been, 0 and 0 where it was something else
+    uvec4 made;   // fragments that are bodies; 0, or WHOLE_*, why the body stayed whole; of WHOLE_FAILED the count of fracture
+                  // that there was no room for and how much it would have been, 0 and 0 where it was something else
     uvec4 lacked; // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
-    ivec4 sector; // of the place of the blow
-    vec4 offset;
+    ivec4 sector; // of the place of the blow; w: cells that were too small to be bodies
+    vec4 offset;  // w: kg of these cells
     vec4 along;    // normal, from the body to the other
     vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
     vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack
@@ -95,6 +101,8 @@ struct BreakEvent {
 #define ROOM_PIECE 1
 #define ROOM_FACES 2
 #define ROOM_TRIANGLES 3
+// Instead of a body's slot, of cells of a body that broke which are too small to be bodies: they have no room, and are dust.
+#define ROOM_OF_DUST 0xfffffffeu
 #define VERTICES_A_FACE 2
 #define EDGES_A_FACE 3
 #define CORNERS_A_FACE 6
@@ -108,6 +116,7 @@ GPU_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
               sizeof(gpu::BlowRecord) == 64);
-static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128 && sizeof(gpu::Birth) == 48);
+static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128 && sizeof(gpu::DustShare) == 8 &&
+              sizeof(gpu::Birth) == 48);
 #endif
 #endif

@@ -43,7 +43,8 @@ GPU_NAMESPACE_BEGIN
 #define STEPS_PIECES 3
 #define STEPS_BROKEN 4    /* bodies that have become fragments */
 #define STEPS_FRAGMENTS 5 /* that have been made */
-#define STEPS_WORDS 6
+#define STEPS_EXPIRED 6   /* fragments that have gone after their time */
+#define STEPS_WORDS 7
 #define IDLE_STEPS 2
 
 // The first colors hold most contacts and are dispatched each; the others are walked through by one workgroup. What has no

@@ -376,12 +376,41 @@ TEST_F(SimulateCli, TooSmallABudgetIsNamed) {
     EXPECT_TRUE(files().empty());
 }
 
-TEST_F(SimulateCli, SaysWhatItGoesOnWithout) {
-    std::ofstream(path("dusty.toml")) << "name = \"dusty\"\neffects = [\"gravity\", \"dust\"]\n[[body]]\n";
-    const Outcome run = simulate({path("dusty.toml"), "--seconds", "0.05", "--json"});
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_NE(run.err.find("dusty: simulated without dust"), std::string::npos) << run.err;
-    EXPECT_EQ(nlohmann::json::parse(run.out)["left_out"], nlohmann::json({"dust"}));
+// A block of glass that becomes dust on the ground.
+constexpr const char* kDustyScene = R"(name = "dusty"
+effects = ["gravity", "contacts", "dust"]
+[breaking]
+smallest_piece = 1
+[camera]
+eye = [0, 0.3, 1]
+target = [0, 0.1, 0]
+width = 320
+height = 240
+[[body]]
+material = "glass"
+size = [0.1, 0.1, 0.1]
+place = [0, 0.06, 0]
+velocity = [0, -12, 0]
+[[collider]]
+)";
+
+TEST_F(SimulateCli, TellsOfDustAndDrawsIt) {
+    std::ofstream(path("dusty.toml")) << kDustyScene;
+    const Outcome run = simulate({path("dusty.toml"), "--seconds", "0.1", "--json", "-o", path("with.png")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto dust = nlohmann::json::parse(run.out)["dust"];
+    EXPECT_GT(dust["made"]["particles"], 10);
+    EXPECT_NEAR(dust["made"]["mass"].get<double>(), 2.5, 1e-5) << "all of the block";
+    EXPECT_EQ(dust["flying"], dust["made"]);
+    EXPECT_EQ(dust["overwritten"]["particles"], 0);
+    std::ofstream(path("without.toml")) << std::string(kDustyScene) + "[dust]\nlifetime = 0\n";
+    ASSERT_EQ(simulate({path("without.toml"), "--seconds", "0.1", "-o", path("without.png")}).exit_code, 0);
+    EXPECT_NE(support::fileBytes(path("with.png")), support::fileBytes(path("without.png")));
+}
+
+TEST_F(SimulateCli, WithoutDustThereIsNothingToTellOfIt) {
+    const Outcome run = simulate({smallScene(), "--seconds", "0.1", "--json"});
+    EXPECT_TRUE(nlohmann::json::parse(run.out)["dust"].is_null());
 }
 
 TEST_F(SimulateCli, NoStepsAreTheBeginning) {

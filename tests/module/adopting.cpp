@@ -343,8 +343,8 @@ World adopt(const Scene& scene, const How& how) {
     World world = emptyWorld(scene);
     const Left left = leftOf(scene);
     const std::vector<uint32_t> counts = countsOf(scene, how.failed), no_args(9 * COUNT_TOTAL);
-    const std::vector<uint32_t> steps = {kSteps, 0, 0, 0, 0, 0};
-    static_assert(STEPS_WORDS == 6);
+    const std::vector<uint32_t> steps = {kSteps, 0, 0, 0, 0, 0, 0};
+    static_assert(STEPS_WORDS == 7);
     const std::vector<gpu::MaterialCard> cards = {brittle::cardOf(brittle::builtinMaterials()[0]),
                                                   brittle::cardOf(brittle::builtinMaterials()[1])};
     const std::vector<gpu::Birth> births(world.bodies.size());

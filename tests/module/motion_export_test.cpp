@@ -330,12 +330,6 @@ TEST(SceneContents, FragmentsOfCurvedModelsAreBodies) {
     }
 }
 
-TEST(SceneContents, TellsWhatItLeavesOut) {
-    SceneDescription scene = fewBodies();
-    scene.effects = {"gravity", "dust", "contacts", "impact_fracture"};
-    EXPECT_EQ(effectsWithout(scene), (std::vector<std::string>{"dust"}));
-}
-
 TEST(Pose, BetweenTwoLiesEvenlyOnTheShorterWay) {
     const Pose a = {{0, 0, 0}, aboutY(0)};
     Pose b = {{4, 8, -4}, aboutY(std::numbers::pi / 2)};

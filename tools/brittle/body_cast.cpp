@@ -17,7 +17,9 @@ Result<brittle::Poses> BodyCast::poses() {
         if (((*states)[body].sector.w & BODY_ABSENT) == 0) poses[body] = brittle::poseOf((*states)[body]);
     for (const brittle::BodyFragment& fragment : *fragments) {
         if (fragment.slot < beginning_) poses[fragment.slot].reset(); // it has taken the place of a body that broke
-        poses[looks_.at({fragment.slot, fragment.step})] = brittle::poseOf((*states)[fragment.slot]);
+        brittle::Pose pose = brittle::poseOf((*states)[fragment.slot]);
+        pose.scale = double{fragment.fade};
+        poses[looks_.at({fragment.slot, fragment.step})] = pose;
     }
     return poses;
 }

@@ -49,12 +49,13 @@ Json toJson(const gpu::BreakEvent& event, const BreakReport& report) {
                  {"effective_mass", event.blow.x},
                  {"speed", event.blow.y},
                  {"fragments", event.made.x}};
-    if (event.made.x == 0) {
+    if (event.made.y != 0) {
         json["whole"] = whyOf(event);
         for (const auto& [pool, lacked] : lackedBy(event))
             json["lacked"][pool] = lacked;
         return json;
     }
+    json["too_small"] = {{"cells", event.sector.w}, {"mass", event.offset.w}};
     json["crack_area"] = event.energies.w;
     json["crack_energy"] = event.energies.z;
     json["impulse"] = event.blow.w;
@@ -63,9 +64,16 @@ Json toJson(const gpu::BreakEvent& event, const BreakReport& report) {
     return json;
 }
 
+std::string tooSmallOf(const gpu::BreakEvent& event) {
+    if (event.sector.w == 0) return {};
+    return ", " + std::to_string(event.sector.w) + " cells too small for bodies, " +
+           brittle::formatNumber(double{event.offset.w}) + " kg";
+}
+
 std::string outcomeOf(const gpu::BreakEvent& event) {
-    if (event.made.x != 0)
-        return std::to_string(event.made.x) + " fragments, " + brittle::formatNumber(double{event.energies.w}) + " m2 of crack";
+    if (event.made.y == 0)
+        return std::to_string(event.made.x) + " fragments, " + brittle::formatNumber(double{event.energies.w}) +
+               " m2 of crack" + tooSmallOf(event);
     std::string text = std::string("whole: ") + whyOf(event);
     for (const auto& [pool, lacked] : lackedBy(event))
         text += ", lacked " + std::to_string(lacked) + " " + pool;

@@ -25,7 +25,8 @@ public:
         motion_.emplace(s.surfaces, s.scene.camera, s.origin);
         return {};
     }
-    Result<void> add(double time, const brittle::Poses& poses) override { return motion_->add(time, poses); }
+    // Dust is left out: it would be a node for every particle.
+    Result<void> add(double time, const Moment& moment) override { return motion_->add(time, moment.poses); }
     Result<void> finish() override {
         const auto bytes = motion_->encode();
         if (!bytes) return bytes.error();
@@ -45,8 +46,8 @@ public:
     explicit PictureOutput(OutputFile file) : file_(std::move(file)) {}
     Result<std::vector<double>> times(double seconds) const override { return std::vector{seconds}; }
     Result<void> begin(const Spectacle& s) override { return open(s, world_); }
-    Result<void> add(double, const brittle::Poses& poses) override {
-        const auto picture = world_->draw(poses);
+    Result<void> add(double, const Moment& moment) override {
+        const auto picture = world_->draw(moment);
         if (!picture) return picture.error();
         return engine::writePng(*picture, file_.temporaryPath().string());
     }
@@ -70,11 +71,11 @@ public:
     PicturesOutput(NumberedName name, double fps) : name_(std::move(name)), fps_(fps) {}
     Result<std::vector<double>> times(double seconds) const override { return frameTimes(seconds, fps_); }
     Result<void> begin(const Spectacle& s) override { return PictureOutput::open(s, world_); }
-    Result<void> add(double, const brittle::Poses& poses) override {
+    Result<void> add(double, const Moment& moment) override {
         auto file = createOutput(name_.of(files_.size()));
         if (!file) return file.error();
         files_.push_back(std::move(*file));
-        const auto picture = world_->draw(poses);
+        const auto picture = world_->draw(moment);
         if (!picture) return picture.error();
         return engine::writePng(*picture, files_.back().temporaryPath().string());
     }
@@ -103,8 +104,8 @@ public:
         film_ = std::move(*film);
         return {};
     }
-    Result<void> add(double, const brittle::Poses& poses) override {
-        const auto picture = world_->draw(poses);
+    Result<void> add(double, const Moment& moment) override {
+        const auto picture = world_->draw(moment);
         if (!picture) return picture.error();
         return film_->add(*picture);
     }

@@ -25,6 +25,19 @@ struct Spectacle {
     brittle::Double3 origin;                // what floats are counted from
 };
 
+// A particle of dust.
+struct Speck {
+    brittle::Double3 place = {0, 0, 0};
+    double radius = 0;   // m
+    uint32_t origin = 0; // the body that it comes of, of the surfaces
+};
+
+// What is where.
+struct Moment {
+    brittle::Poses poses;
+    std::vector<Speck> specks;
+};
+
 class MotionOutput {
 public:
     // By the ending of its name. Fails before any work was done, where it can: an ending that is not known, a place that cannot
@@ -36,7 +49,7 @@ public:
     virtual engine::Result<std::vector<double>> times(double seconds) const = 0;
     // In this order: once, for each of these times, once, once.
     virtual engine::Result<void> begin(const Spectacle& spectacle) = 0;
-    virtual engine::Result<void> add(double time, const brittle::Poses& poses) = 0;
+    virtual engine::Result<void> add(double time, const Moment& moment) = 0;
     virtual engine::Result<void> finish() = 0;
     virtual engine::Result<void> commit() = 0; // only now it is there
 };

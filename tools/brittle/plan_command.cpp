@@ -56,7 +56,6 @@ Result<PlanReport> planOf(const PlanOptions& options) {
     if (!effects) return effects.error();
     PlanReport report;
     report.effects = std::move(*effects);
-    report.left_out = brittle::effectsWithout(*scene);
     showProgress("opening the device");
     const auto device = engine::Device::create({.select = options.device});
     if (!device) return device.error();
@@ -74,7 +73,6 @@ Result<PlanReport> planOf(const PlanOptions& options) {
 int runPlan(const PlanOptions& options) {
     const auto report = planOf(options);
     if (!report) return fail(report.error());
-    reportLeftOut(report->scene, report->left_out, "planned");
     if (options.as_json)
         std::printf("%s\n", planJson(*report).dump(2).c_str());
     else

@@ -168,8 +168,9 @@ nlohmann::ordered_json planJson(const PlanReport& report) {
     for (const Effect effect : report.plan.effects.list())
         bytes[std::string(nameOf(effect))] = report.plan.bytesOf(effect);
     bytes["sum"] = report.plan.bytes();
-    return {{"scene", report.scene},        {"device", report.device}, {"effects", effects}, {"left_out", report.left_out},
-            {"passes", passesJson(report)}, {"buffers", buffers},      {"bytes", bytes},     {"kernels", report.plan.kernels}};
+    return {{"scene", report.scene},         {"device", report.device}, {"effects", effects},
+            {"passes", passesJson(report)},  {"buffers", buffers},      {"bytes", bytes},
+            {"kernels", report.plan.kernels}};
 }
 
 void printPlan(const PlanReport& report) {

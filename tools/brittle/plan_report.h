@@ -17,7 +17,6 @@ struct PlannedEffect {
 struct PlanReport {
     std::string scene, device;
     std::vector<PlannedEffect> effects;
-    std::vector<std::string> left_out; // that the scene lists and there is not yet
     brittle::StepPlan plan;
     bool is_measured = false;
     std::vector<double> us; // of each dispatch; empty where the queue has no clock

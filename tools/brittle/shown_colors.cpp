@@ -36,6 +36,12 @@ gpu::ObjectColor colorOf(const brittle::BodyLook& look, size_t number, double fa
     return {packed(colorOf(hue, 0.37, value), 1), packed(colorOf(hue, 0.55, 0.72 * value), 0)};
 }
 
+gpu::ObjectColor dustColor(const brittle::BodyLook& look, size_t number) {
+    const gpu::ObjectColor own = colorOf(look, number, 0);
+    const auto paler = [](float c) { return 0.75f * c + 0.12f; };
+    return {{paler(own.outer.x), paler(own.outer.y), paler(own.outer.z), 0}, own.inner};
+}
+
 gpu::ObjectColor shadowColor(double fading_distance) {
     const float shade = kGround * kShade;
     return {{shade, shade, 1.08f * shade, 0}, {shade, shade, 1.08f * shade, static_cast<float>(fading_distance)}};

@@ -89,7 +89,6 @@ int runSimulate(const SimulateOptions& options) {
         return fail({ErrorCode::BadInput, "nothing is asked for; give -o, --json or --state-hash"});
     const auto outcome = run(options);
     if (!outcome) return fail(outcome.error());
-    reportLeftOut(outcome->report.scene, outcome->report.left_out);
     print(options, *outcome);
     return kOk;
 }

@@ -84,9 +84,9 @@ Result<void> Simulation::show(MotionOutput& output) {
     if (!times) return times.error();
     if (auto begun = output.begin(spectacle); !begun) return begun;
     for (const double time : *times) {
-        const auto poses = clock_.posesAt(time);
-        if (!poses) return aboutScene(staged_, poses.error());
-        if (auto added = output.add(time, *poses); !added) return added;
+        const auto moment = clock_.momentAt(time);
+        if (!moment) return aboutScene(staged_, moment.error());
+        if (auto added = output.add(time, *moment); !added) return added;
         ++frames_;
     }
     showProgress("writing");
@@ -105,7 +105,6 @@ Result<SimulationReport> Simulation::report() const {
     report.movers = moversOf(staged_.contents.bodies);
     report.colliders = report.counts.bodies - report.movers;
     report.pieces = report.counts.pieces;
-    report.left_out = brittle::effectsWithout(staged_.scene);
     report.breaks = {staged_.scene.step.dt, namesOf(staged_.scene), clock_.breaks().events, clock_.breaks().lost};
     if (steps_ > 0) {
         const auto counts = world_.counts();
@@ -117,6 +116,11 @@ Result<SimulationReport> Simulation::report() const {
     if (!bodies) return bodies.error();
     report.movers_left = moversOf(*bodies);
     report.kinetic_energy = brittle::kineticEnergyOf(*bodies);
+    if (const auto settings = brittle::settingsOf(staged_.scene); settings && settings->dust) {
+        auto dust = world_.dust();
+        if (!dust) return dust.error();
+        report.dust = std::move(*dust);
+    }
     const auto hash = world_.hash();
     if (!hash) return hash.error();
     report.state_hash = *hash;
@@ -179,19 +183,35 @@ Result<SimulationReport> simulate(engine::Device& device, StagedScene& staged, s
     return simulation.report();
 }
 
-void reportLeftOut(const std::string& scene, const std::vector<std::string>& effects, const char* what) {
-    if (effects.empty()) return;
-    std::string names;
-    for (const std::string& name : effects)
-        names += (names.empty() ? "" : ", ") + name;
-    std::fprintf(stderr, "brittle: %s: %s without %s, which there is not yet\n", scene.c_str(), what, names.c_str());
-}
-
 std::string hexOf(uint64_t hash) {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
     return digits;
 }
+
+namespace {
+
+nlohmann::ordered_json dustJson(const brittle::Dust& dust) {
+    const auto json = [](const brittle::DustAmount& amount) {
+        return nlohmann::ordered_json{{"particles", amount.particles}, {"mass", amount.mass}};
+    };
+    return {{"made", json(dust.made)},
+            {"flying", json(dust.inTheAir())},
+            {"settled", json(dust.settled)},
+            {"overwritten", json(dust.overwritten)}};
+}
+
+void printDust(const brittle::Dust& dust) {
+    std::printf("dust       %llu particles, %s kg; %llu at the end, %s kg\n",
+                static_cast<unsigned long long>(dust.made.particles), brittle::formatNumber(dust.made.mass).c_str(),
+                static_cast<unsigned long long>(dust.flying.size()), brittle::formatNumber(dust.inTheAir().mass).c_str());
+    if (dust.overwritten.particles > 0)
+        std::printf("           %llu had to make room for others, %s kg; raise the budget of dust\n",
+                    static_cast<unsigned long long>(dust.overwritten.particles),
+                    brittle::formatNumber(dust.overwritten.mass).c_str());
+}
+
+} // namespace
 
 nlohmann::ordered_json simulationJson(const SimulationReport& r) {
     nlohmann::ordered_json shares = nlohmann::ordered_json::object();
@@ -209,6 +229,8 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"fragments", r.counts.fragments},
             {"breaks", breaksJson(r.breaks)},
             {"breaks_lost", r.breaks.lost},
+            {"expired", r.counts.expired},
+            {"dust", r.dust ? dustJson(*r.dust) : nlohmann::ordered_json()},
             {"colliders", r.colliders},
             {"pieces", r.pieces},
             {"pairs", r.counts.pairs},
@@ -216,7 +238,6 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"awake", r.counts.awake},
             {"stages", shares},
             {"kinetic_energy", r.kinetic_energy},
-            {"left_out", r.left_out},
             {"state_hash", hexOf(r.state_hash)}};
 }
 
@@ -229,6 +250,8 @@ void printSimulation(const SimulationReport& r, const std::string& output) {
         std::printf("broken     %u bodies, into %u fragments; %u bodies at the end\n", r.counts.broken, r.counts.fragments,
                     r.movers_left);
     printBreaks(r.breaks);
+    if (r.counts.expired > 0) std::printf("gone       %u fragments, after their time\n", r.counts.expired);
+    if (r.dust) printDust(*r.dust);
     std::printf("time       %.2f ms a step (median), %.2f (99 of 100), %.0f the first; %u dispatches\n", r.median_ms, r.p99_ms,
                 r.first_ms, r.dispatches);
     for (const auto& [name, share] : r.shares)

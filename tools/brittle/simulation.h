@@ -51,8 +51,8 @@ struct SimulationReport {
     double first_ms = 0, median_ms = 0, p99_ms = 0;
     std::vector<std::pair<std::string, double>> shares; // of stages in the device time of all steps
     double kinetic_energy = 0;                          // J, at the end
+    std::optional<brittle::Dust> dust;                  // at the end, where there is such an effect
     uint64_t state_hash = 0;                            // World::hash, at the end
-    std::vector<std::string> left_out;                  // effects that the scene lists and the world has not got
 };
 
 // In whole steps: `seconds` is rounded up to them; none: as many steps as the scene says. `output` may be nullptr; it is
@@ -64,7 +64,5 @@ engine::Result<SimulationReport> simulate(engine::Device& device, StagedScene& s
 nlohmann::ordered_json simulationJson(const SimulationReport& report);
 void printSimulation(const SimulationReport& report, const std::string& output);
 std::string hexOf(uint64_t hash); // 16 digits
-// One line on stderr where the world goes on without effects that were asked for.
-void reportLeftOut(const std::string& scene, const std::vector<std::string>& effects, const char* what = "simulated");
 
 } // namespace cli

@@ -13,27 +13,44 @@ using engine::Result;
 
 constexpr double kOnStep = 1e-6; // of a step: so near to one a moment is on it
 
+// So much later, as they fly.
+std::vector<Speck> specksOf(const std::vector<gpu::DustParticle>& dust, double later) {
+    std::vector<Speck> specks;
+    for (const gpu::DustParticle& p : dust) {
+        const auto along = [&](int sector, float offset, float velocity) {
+            return double{SECTOR_EDGE} * sector + double{offset} + later * double{velocity};
+        };
+        specks.push_back({{along(p.sector.x, p.place.x, p.velocity.x), along(p.sector.y, p.place.y, p.velocity.y),
+                           along(p.sector.z, p.place.z, p.velocity.z)},
+                          double{p.place.w},
+                          p.birth.y});
+    }
+    return specks;
+}
+
 } // namespace
 
-Result<brittle::Poses> WorldClock::posesAt(double time) {
+Result<Moment> WorldClock::momentAt(double time) {
     const double steps = time / dt_;
     const auto before = static_cast<uint64_t>(std::floor(steps + kOnStep));
     const double share = steps - static_cast<double>(before);
-    const auto first = posesOf(before);
+    const auto first = keptOf(before);
     if (!first) return first.error();
-    if (share < kOnStep || before == last_step_) return **first;
-    const auto second = posesOf(before + 1);
+    if (share < kOnStep || before == last_step_) return Moment{(*first)->poses, specksOf((*first)->dust, 0)};
+    const auto second = keptOf(before + 1);
     if (!second) return second.error();
-    return brittle::between(**first, **second, share);
+    return Moment{brittle::between((*first)->poses, (*second)->poses, share), specksOf((*first)->dust, share * dt_)};
 }
 
-Result<const brittle::Poses*> WorldClock::posesOf(uint64_t step) {
+Result<const WorldClock::Kept*> WorldClock::keptOf(uint64_t step) {
     if (const auto found = kept_.find(step); found != kept_.end()) return &found->second;
     if (auto advanced = advanceTo(step); !advanced) return advanced.error();
     auto poses = cast_.poses();
     if (!poses) return poses.error();
+    auto dust = world_.dust();
+    if (!dust) return dust.error();
     if (kept_.size() > 1) kept_.erase(kept_.begin());
-    return &(kept_[step] = std::move(*poses));
+    return &(kept_[step] = {std::move(*poses), std::move(dust->flying)});
 }
 
 Result<void> WorldClock::advanceTo(uint64_t step) {

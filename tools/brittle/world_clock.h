@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/brittle/body_cast.h"
+#include "tools/brittle/motion_output.h"
 
 #include <map>
 #include <string>
@@ -17,15 +18,19 @@ public:
         : world_(world), cast_(world, surfaces), dt_(dt), last_step_(last_step) {}
 
     // Moments in order. On a step it is the step's own state, between two steps evenly on the way from one to the other, of
-    // the bodies that there are at the first of the two.
-    engine::Result<brittle::Poses> posesAt(double time);
+    // the bodies that there are at the first of the two; dust goes on from the first as it flies there.
+    engine::Result<Moment> momentAt(double time);
     engine::Result<void> advanceTo(uint64_t step);
     const brittle::Breaks& breaks() const { return breaks_; }    // of all steps, where the scene has the effect `events`
     const std::vector<double>& stepTimes() const { return ms_; } // ms, wall clock
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; } // ms on the device, of all steps
 
 private:
-    engine::Result<const brittle::Poses*> posesOf(uint64_t step);
+    struct Kept {
+        brittle::Poses poses;
+        std::vector<gpu::DustParticle> dust;
+    };
+    engine::Result<const Kept*> keptOf(uint64_t step);
     engine::Result<void> stepOnce();
     engine::Result<void> hearBreaks();
     void addStage(const engine::Timing& timing);
@@ -34,7 +39,7 @@ private:
     BodyCast cast_;
     double dt_;
     uint64_t last_step_, made_ = 0;
-    std::map<uint64_t, brittle::Poses> kept_; // by step: the last two that were asked for
+    std::map<uint64_t, Kept> kept_; // by step: the last two that were asked for
     brittle::Breaks breaks_;
     std::vector<double> ms_;
     std::vector<std::pair<std::string, double>> stages_;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <unordered_map>
@@ -39,7 +40,7 @@ gpu::ObjectMatrix packed(const Matrix& matrix) {
 
 Matrix matrixOf(const Pose& pose, const Double3& origin) {
     const Eigen::Quaterniond turn(pose.turn[3], pose.turn[0], pose.turn[1], pose.turn[2]);
-    return Eigen::Translation3d(vectorOf(pose.place - origin)) * turn;
+    return Eigen::Translation3d(vectorOf(pose.place - origin)) * turn * Eigen::Scaling(pose.scale);
 }
 
 // Along the light, onto a plane and a little off it.
@@ -79,9 +80,12 @@ public:
         return {};
     }
 
-    Result<engine::Picture> draw(const Poses& poses) override {
-        if (hasNewBody(poses)) {
-            gather(poses);
+    Result<engine::Picture> draw(const Moment& moment) override {
+        const Poses& poses = moment.poses;
+        const bool had_dust = !clouds_.empty(), is_new = hasNewBody(poses);
+        if (is_new) gather(poses);
+        if (is_new || had_dust || !moment.specks.empty()) {
+            gatherDust(moment.specks);
             if (auto made = createBuffers(); !made) return made.error();
         }
         place(poses);
@@ -89,7 +93,8 @@ public:
     }
 
 private:
-    size_t objectCount() const { return bodies_.size() * (1 + planes_.size()); }
+    size_t objectCount() const { return bodies_.size() * (1 + planes_.size()) + clouds_.size(); }
+    size_t cloudAt(size_t cloud) const { return bodies_.size() * (1 + planes_.size()) + cloud; }
     size_t shadowOf(size_t object, size_t plane) const { return bodies_.size() * (1 + plane) + object; }
     const brittle::BodyLook& lookOf(size_t object) const { return s_.surfaces.bodies[bodies_[object]]; }
 
@@ -110,6 +115,41 @@ private:
         }
     }
 
+    // By the bodies that they come of, whose color they have.
+    void gatherDust(const std::vector<Speck>& specks) {
+        clouds_.clear();
+        for (const Speck& speck : specks)
+            clouds_[speck.origin].push_back(speck);
+    }
+    // A square that faces the eye, of a pixel at the least.
+    void addSquare(const Speck& speck, std::vector<brittle::FragmentVertex>& vertices, std::vector<uint32_t>& indices) const {
+        const Vector eye = vectorOf(brittle::toDouble(camera_.eye)), middle = vectorOf(speck.place - s_.origin);
+        const Vector back = (eye - vectorOf(brittle::toDouble(camera_.target))).normalized();
+        const Vector right = vectorOf(brittle::toDouble(camera_.up)).cross(back).normalized(), up = back.cross(right);
+        const double pixel = 2 * std::tan(double{camera_.fov_y} / 2) * back.dot(eye - middle) / s_.scene.camera.height;
+        const double half = std::max(speck.radius, pixel / 2);
+        const auto first = static_cast<uint32_t>(vertices.size());
+        for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+            const Eigen::Vector3f place = (middle + half * (x * right + y * up)).cast<float>(), normal = back.cast<float>();
+            vertices.push_back({{place.x(), place.y(), place.z()}, {normal.x(), normal.y(), normal.z()}, {0, 0}});
+        }
+        for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+            indices.push_back(first + corner);
+    }
+    // As one mesh, with a command for each cloud behind those of the solids.
+    std::vector<gpu::DrawCommand> addDust(std::vector<brittle::FragmentVertex>& vertices,
+                                          std::vector<uint32_t>& indices) const {
+        std::vector<gpu::DrawCommand> commands;
+        for (const auto& [origin, specks] : clouds_) {
+            const auto first = static_cast<uint32_t>(indices.size());
+            for (const Speck& speck : specks)
+                addSquare(speck, vertices, indices);
+            const auto instance = static_cast<uint32_t>(2 * cloudAt(commands.size()));
+            commands.push_back({static_cast<uint32_t>(indices.size()) - first, 1, first, 0, instance});
+        }
+        return commands;
+    }
+
     Result<void> createBuffers() {
         std::vector<brittle::FragmentVertex> vertices;
         std::vector<uint32_t> indices;
@@ -124,7 +164,7 @@ private:
             vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
             indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
         }
-        const std::vector<gpu::DrawCommand> commands = drawCommands();
+        const std::vector<gpu::DrawCommand> commands = drawCommands(addDust(vertices, indices));
         draw_count_ = static_cast<uint32_t>(commands.size());
         auto made = keep(drawnBuffer(s_.device, vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT), vertices_);
         if (made) made = keep(drawnBuffer(s_.device, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT), indices_);
@@ -139,11 +179,12 @@ private:
         return {};
     }
 
-    // Solids, then what fades out: planes, and the shadows that lie a little above them.
-    std::vector<gpu::DrawCommand> drawCommands() const {
+    // Solids and dust, then what fades out: planes, and the shadows that lie a little above them.
+    std::vector<gpu::DrawCommand> drawCommands(const std::vector<gpu::DrawCommand>& dust) const {
         std::vector<gpu::DrawCommand> commands;
         for (const size_t solid : solids_)
             addDraws(commands, solid, solid);
+        commands.insert(commands.end(), dust.begin(), dust.end());
         for (const size_t plane : planes_)
             addDraws(commands, plane, plane);
         for (size_t plane = 0; plane < planes_.size(); ++plane)
@@ -167,11 +208,16 @@ private:
         std::vector<gpu::ObjectColor> colors(objectCount(), shadowColor(fading));
         for (size_t object = 0; object < bodies_.size(); ++object)
             colors[object] = colorOf(lookOf(object), bodies_[object], fading);
+        size_t cloud = 0;
+        for (const auto& [origin, specks] : clouds_)
+            colors[cloudAt(cloud++)] = dustColor(s_.surfaces.bodies[origin], origin);
         return colors;
     }
 
     void place(const Poses& poses) {
         auto* matrices = matrices_.mappedAs<gpu::ObjectMatrix>();
+        for (size_t cloud = 0; cloud < clouds_.size(); ++cloud)
+            matrices[cloudAt(cloud)] = packed(Matrix::Identity());
         for (const size_t solid : solids_) {
             const auto matrix = matrixFor(solid, poses);
             matrices[solid] = matrix ? packed(*matrix) : gpu::ObjectMatrix{};
@@ -214,10 +260,11 @@ private:
     const Spectacle s_;
     engine::Camera camera_;
     double distance_;
-    size_t known_ = 0;                             // bodies that have been asked about
-    std::vector<size_t> bodies_;                   // by object
-    std::vector<size_t> planes_, solids_;          // objects
-    std::unordered_map<uint32_t, First> first_of_; // by mesh
+    size_t known_ = 0;                              // bodies that have been asked about
+    std::vector<size_t> bodies_;                    // by object
+    std::vector<size_t> planes_, solids_;           // objects
+    std::map<uint32_t, std::vector<Speck>> clouds_; // of dust, by the body that it comes of
+    std::unordered_map<uint32_t, First> first_of_;  // by mesh
     uint32_t draw_count_ = 0;
     Buffer vertices_, indices_, commands_, colors_, matrices_;
     std::unique_ptr<engine::Renderer> renderer_;

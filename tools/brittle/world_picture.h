@@ -1,4 +1,5 @@
-// Pictures of a world: bodies in colors that tell them apart, the planes they lie on, and the shadows that they cast there.
+// Pictures of a world: bodies in colors that tell them apart, the planes they lie on, the shadows that they cast there, and
+// dust.
 #pragma once
 
 #include "engine/image_io.h"
@@ -13,7 +14,7 @@ public:
     // As large as the scene's camera wants them. Errors: Device, where it cannot draw; BadInput, for more pixels than it has.
     static engine::Result<std::unique_ptr<WorldPicture>> create(const Spectacle& spectacle);
     virtual ~WorldPicture() = default;
-    virtual engine::Result<engine::Picture> draw(const brittle::Poses& poses) = 0;
+    virtual engine::Result<engine::Picture> draw(const Moment& moment) = 0;
 };
 
 } // namespace cli

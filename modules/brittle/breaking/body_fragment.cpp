@@ -43,8 +43,8 @@ SurfaceMesh surfaceOf(const gpu::BreakableBody& body, std::span<const FragmentVe
 } // namespace
 
 Result<std::vector<BodyFragment>> FragmentList::read(engine::Device& device, BufferView breakable, uint32_t slots,
-                                                     uint32_t broken) {
-    if (known_of_ == broken) return known_;
+                                                     uint32_t changes) {
+    if (known_of_ == changes) return known_;
     std::vector<gpu::BreakableBody> records(slots);
     const Fetch wanted[] = {{breakable, records.data(), records.size() * sizeof(gpu::BreakableBody)}};
     if (auto read = fetch(device, wanted); !read) return read.error();
@@ -53,7 +53,7 @@ Result<std::vector<BodyFragment>> FragmentList::read(engine::Device& device, Buf
         if (holdsFragment(records[slot]))
             known_.push_back({slot, static_cast<uint32_t>(records[slot].balance.w), static_cast<uint32_t>(records[slot].low.w),
                               records[slot]});
-    known_of_ = broken;
+    known_of_ = changes;
     return known_;
 }
 

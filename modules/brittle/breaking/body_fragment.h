@@ -15,19 +15,20 @@ struct BodyFragment {
     uint32_t step = 0;   // that it was made in, counted from 1: another fragment in the same slot has another
     uint32_t origin = 0; // the slot of the first body that it was a part of, however often that has broken since
     gpu::BreakableBody record{};
+    float fade = 1; // how much is left of one that goes, down to 0: for whoever draws it
 };
 
-// Which fragments there are, read anew only where something has broken since.
+// Which fragments there are, read anew only where something has broken or gone since.
 class FragmentList {
 public:
-    // Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, by slot; `broken`: how many bodies
-    // have broken so far.
+    // Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, by slot; `changes`: how many bodies
+    // have broken and fragments gone so far.
     engine::Result<std::vector<BodyFragment>> read(engine::Device& device, engine::BufferView breakable, uint32_t slots,
-                                                   uint32_t broken);
+                                                   uint32_t changes);
     void forget() { known_of_.reset(); }
 
 private:
-    std::vector<BodyFragment> known_; // when so many had broken
+    std::vector<BodyFragment> known_; // when there were so many changes
     std::optional<uint32_t> known_of_ = 0;
 };
 

@@ -3,6 +3,8 @@
 #include "engine/arena.h"
 #include "modules/brittle/breaking/adopt.h"
 #include "modules/brittle/breaking/breaking_buffers.h"
+#include "modules/brittle/breaking/debris.h"
+#include "modules/brittle/breaking/dust.h"
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/upload.h"
 
@@ -26,8 +28,8 @@ static_assert(MOST_BREAKING == 1 << kOwnerBits);
 
 class DeviceBreaking final : public Breaking {
 public:
-    DeviceBreaking(Device& device, const RoomToBreak& room, EffectSet effects)
-        : device_(device), room_(room), effects_(effects) {}
+    DeviceBreaking(Device& device, const RoomToBreak& room, const StepSettings& settings)
+        : device_(device), room_(room), settings_(settings), effects_(effectsOf(settings)) {}
 
     Result<void> make(const WorldContents& contents, uint32_t pairs, uint32_t group_size) {
         const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments};
@@ -35,6 +37,7 @@ public:
         sizes_ = {pairs, static_cast<uint32_t>(contents.bodies.size()), event_.capacity.fragments};
         room_.pools.requests = event_.capacity.fragments;
         if (auto made = makeBuffers(contents); !made) return made;
+        if (auto made = makeSmall(contents); !made) return made;
         return fill(contents);
     }
 
@@ -63,18 +66,20 @@ public:
     }
 
     Result<void> recordEvent(const Step& s) override {
+        if (dust_) dust_->recordFlight(s);
         Recorder record(s.record.commands(), s.kernels, event_.b.counts, event_.b.args);
         recordBreaking(record, event_, p_.breaking, l_.surface_vertices, scene_->views(), colliders_->views());
         record.commands().beginLabel("rooms");
-        recordRequests(record);
+        recordRequests(record, s);
         recordTake(record, room_.pools, pools_, {COUNT_BREAKING, p_.sizes, p_.owner_start, p_.begins, p_.lacking},
                    s.many_lanes);
         record.run("give_rooms", Length::counted(COUNT_FRAGMENTS), engine::NoPush{},
-                   {record.counts(), p_.order, p_.sizes, p_.begins, p_.rooms, s.b.steps});
+                   {record.counts(), p_.order, p_.sizes, p_.begins, p_.rooms, s.b.steps, p_.owners, p_.cracks});
         recordPayment(record, s);
         if (s.has(Effect::Events)) recordTelling(s);
         record.commands().endLabel();
         recordSwap(record, s);
+        if (debris_) debris_->record(s, worldOf(s), room_.pools, pools_);
         return record.status();
     }
 
@@ -97,6 +102,8 @@ public:
     std::vector<BufferView> stateViews() const override {
         std::vector<BufferView> views = {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges};
         if (effects_.has(Effect::Events)) views.insert(views.end(), {l_.told, l_.ring});
+        if (dust_) std::ranges::copy(dust_->stateViews(), std::back_inserter(views));
+        if (debris_) std::ranges::copy(debris_->stateViews(), std::back_inserter(views));
         return views;
     }
     std::vector<NamedBuffer> buffers() const override {
@@ -105,27 +112,42 @@ public:
         std::ranges::copy(namedBuffers(event_.b, {"fracture", range, range.size, Effect::ImpactFracture, true}),
                           std::back_inserter(named));
         std::ranges::copy(namedBuffers(scene_->views(), colliders_->views()), std::back_inserter(named));
+        if (dust_) std::ranges::copy(dust_->named(), std::back_inserter(named));
+        if (debris_) std::ranges::copy(debris_->named(), std::back_inserter(named));
         return named;
     }
     BufferView arguments() const override { return event_.b.args; }
     BufferView surfaceVertices() const override { return l_.surface_vertices; }
     BufferView breakable() const override { return l_.breakable; }
 
+    Result<Dust> dust() const override { return dust_ ? dust_->read() : Result<Dust>(Dust()); }
+    Result<std::vector<float>> fades(uint32_t slots) const override {
+        return debris_ ? debris_->fades(slots, settings_) : Result<std::vector<float>>(std::vector<float>(slots, 1.0f));
+    }
+    Result<std::array<gpu::PoolHeader, POOLS>> pools() const override {
+        std::array<gpu::PoolHeader, POOLS> headers;
+        const Fetch wanted[] = {{pools_.headers, headers.data(), sizeof headers}};
+        if (auto read = fetch(device_, wanted); !read) return read.error();
+        return headers;
+    }
+
 private:
     GatherRoom gatherRoomFor() const { return roomFor(room_.step_bodies, room_.step_triangles); }
 
     // Who is asked for what, object by object.
-    void recordRequests(Recorder& record) {
+    void recordRequests(Recorder& record, const Step& s) {
+        const float least = leastVolumeOf(s.settings);
         const BufferView& fragments = scene_->views().fragments;
         const Length all = Length::counted(COUNT_FRAGMENTS);
         record.run("key_fragments", all, engine::NoPush{}, {record.counts(), fragments, event_.b.sites, p_.owners, p_.order});
         record.sort(COUNT_FRAGMENTS, kOwnerBits, {p_.owners, p_.other_owners}, {p_.order, p_.other_order},
                     {p_.histogram, p_.digit_offsets, p_.sums});
-        record.runGroups("measure_cracks", record.groupsOf(COUNT_BREAKING), engine::NoPush{},
+        record.runGroups("measure_cracks", record.groupsOf(COUNT_BREAKING), least,
                          {record.counts(), p_.breaking, p_.broken, l_.breakable, l_.cards, p_.owners, p_.order, fragments,
-                          p_.cracks, p_.owner_start});
-        record.run("ask_rooms", all, engine::NoPush{},
-                   {record.counts(), p_.owners, p_.order, fragments, colliders_->views().records, p_.cracks, p_.sizes});
+                          p_.cracks, p_.owner_start, p_.dust_shares});
+        record.run(
+            "ask_rooms", all, least,
+            {record.counts(), p_.owners, p_.order, fragments, colliders_->views().records, p_.cracks, p_.sizes, p_.breaking});
     }
 
     void recordPayment(Recorder& record, const Step& s) {
@@ -139,7 +161,11 @@ private:
     void recordTelling(const Step& s) {
         s.record.runGroups("tell_breaks", 1, engine::NoPush{},
                            {event_.b.counts, p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told,
-                            l_.ring, p_.lacking});
+                            l_.ring, p_.lacking, p_.dust_shares});
+    }
+
+    BreakableWorld worldOf(const Step& s) const {
+        return {s.b.bodies, s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable, l_.surface_vertices, l_.cards, s.b.steps, s.b.births};
     }
 
     void recordSwap(Recorder& record, const Step& s) {
@@ -150,11 +176,12 @@ private:
                                    p_.breaking,
                                    p_.broken,
                                    p_.rooms};
-        const BreakableWorld world = {s.b.bodies,          s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable,
-                                      l_.surface_vertices, l_.cards,   s.b.steps,  s.b.births};
+        const BreakableWorld world = worldOf(s);
         const auto hold = s.has(Effect::Refracture) ? static_cast<float>(s.settings.blow_time) : kForEver;
         const FragmentSettings settings = {s.settings.breaking_seed, hold, static_cast<float>(s.settings.dt)};
         recordAdoption(record, parts, world, settings, p_.adopted);
+        if (dust_)
+            dust_->recordEmission(s, {parts, world, record.counts(), record.lanesOf(COUNT_FRAGMENTS), p_.order, p_.owners});
         recordRetirement(record, parts, world, p_.adopted, p_.returned);
         record.commands().beginLabel("returns");
         recordReturn(record, room_.pools, pools_, {COUNT_BREAKING, p_.returned}, s.many_lanes);
@@ -185,6 +212,20 @@ private:
         if (auto done = layOutAll(*lasting_, *passing_, contents); !done) return done.error();
         if (auto fits = lasting_->status(); !fits) return fits;
         return passing_->status();
+    }
+
+    // For what is too small to be a body, or to stay.
+    Result<void> makeSmall(const WorldContents& contents) {
+        if (effects_.has(Effect::Dust)) {
+            auto dust = DustRing::create(device_, contents, room_.particles, sizes_.fragments);
+            if (!dust) return dust.error();
+            dust_ = std::move(*dust);
+        }
+        if (!effects_.has(Effect::DebrisLifetime)) return {};
+        auto debris = Debris::create(device_, sizes_.bodies);
+        if (!debris) return debris.error();
+        debris_ = std::move(*debris);
+        return {};
     }
 
     // Bytes of the largest list.
@@ -220,6 +261,7 @@ private:
 
     Device& device_;
     RoomToBreak room_;
+    StepSettings settings_;
     EffectSet effects_;
     BreakingSizes sizes_;
     BreakingEvent event_;
@@ -230,13 +272,15 @@ private:
     PassingBuffers p_;
     PoolBuffers pools_;
     VkDeviceSize fracture_begin_ = 0; // of what fracturing needs, in what is made anew
+    std::unique_ptr<DustRing> dust_;
+    std::unique_ptr<Debris> debris_;
 };
 
 } // namespace
 
 Result<std::unique_ptr<Breaking>> Breaking::create(Device& device, const WorldContents& contents, const RoomToBreak& room,
-                                                   const WorldSizes& world, uint32_t group_size) {
-    auto breaking = std::make_unique<DeviceBreaking>(device, room, world.effects);
+                                                   const StepSettings& settings, const WorldSizes& world, uint32_t group_size) {
+    auto breaking = std::make_unique<DeviceBreaking>(device, room, settings);
     if (auto made = breaking->make(contents, world.pairs, group_size); !made) return made.error();
     return std::unique_ptr<Breaking>(std::move(breaking));
 }

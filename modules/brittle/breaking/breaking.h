@@ -18,8 +18,8 @@ public:
     // `contents` with room, as the world of that size has them. Errors: Capacity, with the list that the device cannot bind;
     // Device.
     static engine::Result<std::unique_ptr<Breaking>> create(engine::Device& device, const WorldContents& contents,
-                                                            const RoomToBreak& room, const WorldSizes& world,
-                                                            uint32_t group_size);
+                                                            const RoomToBreak& room, const StepSettings& settings,
+                                                            const WorldSizes& world, uint32_t group_size);
     virtual ~Breaking() = default;
 
     virtual void recordBlows(const Step& step) = 0;
@@ -35,6 +35,11 @@ public:
     // SceneVertices, three a triangle, of all surfaces; gpu::BreakableBody, a body each.
     virtual engine::BufferView surfaceVertices() const = 0;
     virtual engine::BufferView breakable() const = 0;
+    // What flies of all that was too small for a body; nothing without the effect `dust`.
+    virtual engine::Result<Dust> dust() const = 0;
+    // How much is left of each body, from 1 to 0, by slot, of the first so many; 1 without the effect `debris_lifetime`.
+    virtual engine::Result<std::vector<float>> fades(uint32_t slots) const = 0;
+    virtual engine::Result<std::array<gpu::PoolHeader, POOLS>> pools() const = 0;
 };
 
 } // namespace brittle

@@ -31,6 +31,7 @@ constexpr ViewName<P> kPassing[] = {{&P::blows, "blows"},
                                     {&P::breaking, "breaking"},
                                     {&P::broken, "broken"},
                                     {&P::cracks, "cracks"},
+                                    {&P::dust_shares, "dust shares"},
                                     {&P::ledger, "crack ledger"},
                                     {&P::adopted, "adopted"},
                                     {&P::returned, "returned ranges"},
@@ -100,6 +101,7 @@ PassingBuffers layOutPassing(ScratchArena& arena, const BreakingSizes& n) {
     p.breaking = arena.take(MOST_BREAKING * sizeof(gpu::BreakingRecord));
     p.broken = arena.take(MOST_BREAKING * sizeof(gpu::BrokenBody));
     p.cracks = words(MOST_BREAKING);
+    p.dust_shares = arena.take(MOST_BREAKING * sizeof(gpu::DustShare));
     p.ledger = arena.take(MOST_BREAKING * sizeof(gpu::CrackLedger));
     p.adopted = words(MOST_BREAKING);
     p.returned = arena.take(MOST_BREAKING * sizeof(gpu::PoolShare));

@@ -1,6 +1,7 @@
 #include "modules/brittle/breaking/room_to_break.h"
 
 #include "modules/brittle/breaking/breakable.h"
+#include "shaders-spirv/shared/debris.h"
 
 #include <algorithm>
 
@@ -8,7 +9,7 @@ namespace brittle {
 namespace {
 
 constexpr uint32_t kFragments = 1024, kFacesOfOne = 24, kTrianglesOfOne = 96;
-constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256;
+constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
 
 uint32_t timesRounded(uint32_t count, uint32_t each) { return (count + each - 1) / each; }
 
@@ -85,6 +86,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     room.step_triangles = chosen(budget.step_triangles, std::max(kStepTriangles, 2 * largestSurface(contents)));
     room.step_sites = chosen(budget.step_sites, kStepSites);
     room.most_fragments = std::min(chosen(budget.most_fragments, kFragmentsOfOne), room.step_sites);
+    room.particles = chosen(budget.particles, kParticles);
     room.bodies = static_cast<uint32_t>(contents.bodies.size());
     room.pieces = static_cast<uint32_t>(contents.pieces.size());
     const uint32_t faces = faceRoom(contents), triangles = static_cast<uint32_t>(contents.surface_vertices.size() / 3);
@@ -95,7 +97,8 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     // What cannot break gives nothing back.
     const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
     pools.objects = fragments + static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
-    pools.returned = pools.owners = room.step_bodies;
+    pools.owners = room.step_bodies;
+    pools.returned = std::max<uint32_t>(room.step_bodies, MOST_EXPIRING);
     for (size_t k = 0; k < POOLS; ++k)
         room.free[k] = {{taken[k], pools.capacity[k] - taken[k]}};
     if (auto state = poolsWith(pools, room.free); !state) return state.error();

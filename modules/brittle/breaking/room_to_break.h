@@ -15,10 +15,11 @@ struct BreakingBudget {
     uint32_t step_triangles = 0; // of their surfaces; a body with more never breaks
     uint32_t step_sites = 0;
     uint32_t most_fragments = 0; // of one body
+    uint32_t particles = 0;      // of dust, that fly at a time, rounded up to a power of two
 };
 
 struct RoomToBreak {
-    uint32_t step_bodies = 0, step_triangles = 0, step_sites = 0, most_fragments = 0;
+    uint32_t step_bodies = 0, step_triangles = 0, step_sites = 0, most_fragments = 0, particles = 0;
     uint32_t bodies = 0, pieces = 0; // that there are before anything breaks
     PoolRoom pools;
     FreeLists free; // before anything breaks

@@ -96,8 +96,10 @@ void recordReturn(Recorder& record, const PoolRoom& room, const PoolBuffers& b, 
     struct Push {
         uint32_t returned_count, returned_room, range_room;
     } push = {returns.count, room.returned, room.ranges()};
-    record.runGroups(named("return_ranges", many_lanes), POOLS, push,
-                     {record.counts(), returns.returned, b.headers, b.free_ranges, b.order, b.sorted});
+    const std::string name = named("return_ranges", many_lanes);
+    const Recorder::Views buffers = {record.counts(), returns.returned, b.headers, b.free_ranges, b.order, b.sorted};
+    if (returns.groups.buffer != nullptr) return record.runGroups(name, returns.groups, push, buffers);
+    record.runGroups(name, POOLS, push, buffers);
 }
 
 void recordTake(Recorder& record, const PoolRoom& room, const PoolBuffers& b, const PoolRequests& requests, bool many_lanes) {

@@ -52,6 +52,7 @@ FreeLists allFree(const PoolRoom& room);
 struct PoolReturns {
     uint32_t count = NO_INDEX;   // index into the counts
     engine::BufferView returned; // PoolShares, in any order
+    engine::BufferView groups;   // dispatch arguments, of POOLS workgroups or none; empty: always
 };
 struct PoolRequests {
     uint32_t owner_count = NO_INDEX;

@@ -39,7 +39,8 @@ Pose poseOf(const gpu::BodyState& body) {
 }
 
 Pose between(const Pose& a, const Pose& b, double share) {
-    return {a.place + share * (b.place - a.place), turnOf(rotation(a.turn).slerp(share, rotation(b.turn)))};
+    return {a.place + share * (b.place - a.place), turnOf(rotation(a.turn).slerp(share, rotation(b.turn))),
+            a.scale + share * (b.scale - a.scale)};
 }
 
 Poses between(const Poses& a, const Poses& b, double share) {

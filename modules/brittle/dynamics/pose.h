@@ -16,6 +16,7 @@ Double3 turnedBack(const Turn& turn, const Double3& v);
 struct Pose {
     Double3 place = {0, 0, 0}; // of the center of mass
     Turn turn = {0, 0, 0, 1};  // unit
+    double scale = 1;          // of one that fades, about its center of mass, down to 0
 };
 
 Pose poseOf(const gpu::BodyState& body);

@@ -24,6 +24,13 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.impact_fracture = has(Effect::ImpactFracture);
     s.refracture = has(Effect::Refracture);
     s.events = has(Effect::Events);
+    s.dust = has(Effect::Dust);
+    s.debris_lifetime = has(Effect::DebrisLifetime);
+    s.smallest_piece = scene.breaking.smallest_piece;
+    s.dust_lifetime = scene.dust.lifetime;
+    s.debris_below = scene.debris.below;
+    s.debris_after = scene.debris.after;
+    s.debris_fade = scene.debris.fade;
     s.air_density = scene.air_density;
     s.drag_coefficient = scene.drag_coefficient;
     s.contact_hertz = scene.step.contact_hertz;
@@ -46,18 +53,9 @@ WorldBudget budgetOf(const SceneDescription& scene, uint32_t group_size) {
                        .step_bodies = b.breaking_bodies,
                        .step_triangles = b.breaking_triangles,
                        .step_sites = b.breaking_sites,
-                       .most_fragments = b.most_fragments};
+                       .most_fragments = b.most_fragments,
+                       .particles = b.dust};
     return budget;
-}
-
-std::vector<std::string> effectsWithout(const SceneDescription& scene) {
-    constexpr EffectSet kThere = {Effect::Gravity,    Effect::Contacts, Effect::Friction, Effect::Restitution,
-                                  Effect::Ccd,        Effect::Sleeping, Effect::Drag,     Effect::ImpactFracture,
-                                  Effect::Refracture, Effect::Events};
-    std::vector<std::string> without;
-    for (const std::string& name : scene.effects)
-        if (const auto effect = effectOf(name); effect && !kThere.has(*effect)) without.push_back(name);
-    return without;
 }
 
 } // namespace brittle

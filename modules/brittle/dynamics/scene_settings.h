@@ -5,16 +5,11 @@
 #include "modules/brittle/dynamics/world.h"
 #include "modules/brittle/scene/scene_description.h"
 
-#include <string>
-#include <vector>
-
 namespace brittle {
 
 // Effects that a scene neither lists nor needs for those that it does are off. Errors: BadInput, for what the world has not got
 // yet.
 engine::Result<StepSettings> settingsOf(const SceneDescription& scene);
 WorldBudget budgetOf(const SceneDescription& scene, uint32_t group_size = 0);
-// Effects that the scene lists and the world has not got yet: it goes on without them.
-std::vector<std::string> effectsWithout(const SceneDescription& scene);
 
 } // namespace brittle

@@ -22,6 +22,10 @@ uint32_t dragWord(const StepSettings& s) {
 
 } // namespace
 
+float leastVolumeOf(const StepSettings& s) {
+    return static_cast<float>(s.smallest_piece * s.smallest_piece * s.smallest_piece);
+}
+
 Result<void> checkSettings(const StepSettings& s) {
     const auto refuse = [](const std::string& why) { return Error{ErrorCode::BadInput, "world: " + why}; };
     for (const double g : s.gravity)
@@ -39,6 +43,12 @@ Result<void> checkSettings(const StepSettings& s) {
         return refuse("a density of the air or a drag coefficient that is out of range; give 0 to 1e4 kg/m3, 0 to 100");
     if (s.impact_fracture && !s.ccd)
         return refuse("bodies break only where fast ones are held back: ccd comes with impact_fracture");
+    if (!(s.smallest_piece >= 0 && s.smallest_piece <= 100))
+        return refuse("a smallest piece of " + std::to_string(s.smallest_piece) + " m; give 0 to 100");
+    if (!(s.dust_lifetime >= 0 && s.dust_lifetime <= 1e6)) return refuse("dust that lasts that long; give 0 to 1e6 s");
+    if (!(s.debris_below >= 0 && s.debris_below <= 1e3)) return refuse("debris below that size; give 0 to 1000 m");
+    if (!(s.debris_after >= 0 && s.debris_after <= 1e6 && s.debris_fade >= 0 && s.debris_fade <= 1e6))
+        return refuse("debris that rests or fades for that long; give 0 to 1e6 s");
     if (!(s.blow_time >= 0 && s.blow_time <= 1e3)) return refuse("a blow of that many seconds; give 0 to 1000");
     if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
     return {};
@@ -59,6 +69,8 @@ EffectSet effectsOf(const StepSettings& s) {
     addIf(s.contacts && s.impact_fracture, Effect::ImpactFracture);
     addIf(s.events, Effect::Events);
     addIf(s.contacts && s.impact_fracture && s.refracture, Effect::Refracture);
+    addIf(s.contacts && s.impact_fracture && s.dust, Effect::Dust);
+    addIf(s.contacts && s.impact_fracture && s.debris_lifetime, Effect::DebrisLifetime);
     return set;
 }
 

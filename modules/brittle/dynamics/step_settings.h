@@ -37,8 +37,19 @@ struct StepSettings {
     bool refracture = false;      // so do their fragments
     bool events = false;          // the host is told what has broken (World::breaks)
     uint64_t breaking_seed = 1;
-    double blow_time = 0.05; // s: for so long a blow does not break the fragments that it has made
+    double blow_time = 0.05;       // s: for so long a blow does not break the fragments that it has made
+    double smallest_piece = 0.002; // m: a cell of what breaks whose volume is less than that of a cube of this edge is no body;
+                                   // 0: every cell is one
+    bool dust = false;             // such cells fly on as particles (breaking/dust.h)
+    double dust_lifetime = 4;      // s, after which particles settle
+    bool debris_lifetime = false;  // small fragments that have come to rest fade and go (breaking/debris.h)
+    double debris_below = 0.05;    // m: whose volume is less than that of a cube of this edge
+    double debris_after = 3;       // s of rest
+    double debris_fade = 1;        // s
 };
+
+// m3, that a body has at the least.
+float leastVolumeOf(const StepSettings& settings);
 
 // BadInput for what is out of range.
 engine::Result<void> checkSettings(const StepSettings& settings);

@@ -41,7 +41,7 @@ public:
 
     // Bodies that can, break from now on; to be called before anything is recorded.
     Result<void> makeBreakable(const RoomToBreak& room) {
-        auto breaking = Breaking::create(device_, contents_, room, b_.sizes, budget_.group_size);
+        auto breaking = Breaking::create(device_, contents_, room, settings_, b_.sizes, budget_.group_size);
         if (!breaking) return breaking.error();
         breaking_ = std::move(*breaking);
         to_break_ = room;
@@ -87,9 +87,12 @@ public:
     Result<std::vector<BodyFragment>> fragments() override {
         if (auto settled = settle(); !settled) return settled.error();
         if (!breaking_) return std::vector<BodyFragment>();
-        auto read = fragments_.read(device_, breaking_->breakable(), slots_, broken_);
+        auto read = fragments_.read(device_, breaking_->breakable(), slots_, broken_ + expired_);
         if (!read) return read;
+        const auto fades = breaking_->fades(slots_);
+        if (!fades) return fades.error();
         for (BodyFragment& fragment : *read) {
+            fragment.fade = (*fades)[fragment.slot];
             fragment.slot = bodyAsAdded(fragment.slot);
             fragment.origin = bodyAsAdded(fragment.origin);
         }
@@ -115,11 +118,22 @@ public:
         for (size_t k = 0; k < breaking_args.size(); k += 9)
             c.breaking_groups += breaking_args[k] * breaking_args[k + 1];
         c.colors = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_USED];
-        c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers + fragments_made_ - broken_;
+        c.awake = has(Effect::Sleeping) ? words[COUNT_AWAKE] : b_.movers + fragments_made_ - broken_ - expired_;
         c.colorless = words[COUNT_CONTACTS] == 0 ? 0 : colors[COLORS_LACKED];
         c.broken = broken_;
         c.fragments = fragments_made_;
+        c.expired = expired_;
+        if (auto counted = countPools(c); !counted) return counted.error();
         return c;
+    }
+
+    Result<Dust> dust() override {
+        if (!breaking_) return Dust();
+        auto dust = breaking_->dust();
+        if (!dust) return dust;
+        for (gpu::DustParticle& particle : dust->flying)
+            particle.birth.y = bodyAsAdded(particle.birth.y);
+        return dust;
     }
 
     Result<Breaks> breaks() override {
@@ -214,6 +228,17 @@ private:
         recordSolve(step);
         recordEnd(step);
         if (breaking_) return breaking_->recordEvent(step);
+        return {};
+    }
+
+    Result<void> countPools(WorldCounts& c) {
+        if (!breaking_) return {};
+        const auto pools = breaking_->pools();
+        if (!pools) return pools.error();
+        for (size_t k = 0; k < pools->size(); k++) {
+            c.in_use[k] = (*pools)[k].in_use;
+            c.pool_faults |= (*pools)[k].status;
+        }
         return {};
     }
 
@@ -321,6 +346,7 @@ private:
         slots_ = steps[STEPS_BODIES];
         broken_ = steps[STEPS_BROKEN];
         fragments_made_ = steps[STEPS_FRAGMENTS];
+        expired_ = steps[STEPS_EXPIRED];
         return words;
     }
 
@@ -377,7 +403,7 @@ private:
     RoomToBreak to_break_;
     uint32_t heard_ = 0; // of what broke
     uint32_t slots_ = 0; // of bodies, that have ever held one
-    uint32_t broken_ = 0, fragments_made_ = 0;
+    uint32_t broken_ = 0, fragments_made_ = 0, expired_ = 0;
     FragmentList fragments_;
 };
 

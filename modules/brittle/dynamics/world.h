@@ -7,6 +7,7 @@
 #include "engine/commands.h"
 #include "engine/device.h"
 #include "modules/brittle/breaking/body_fragment.h"
+#include "modules/brittle/breaking/dust_state.h"
 #include "modules/brittle/breaking/room_to_break.h"
 #include "modules/brittle/dynamics/step_plan.h"
 #include "modules/brittle/dynamics/step_settings.h"
@@ -39,6 +40,10 @@ struct WorldCounts {
     uint32_t breaking_groups = 0; // workgroups over what broke in it; none where nothing did
     uint32_t broken = 0;          // bodies that have broken since the beginning
     uint32_t fragments = 0;       // that they became; some may have broken again
+    uint32_t expired = 0;         // fragments that have gone after their time, with the effect `debris_lifetime`
+    // In use of the pools that bodies break in: bodies, their pieces, faces of hulls, triangles of surfaces. 0 where none can.
+    std::array<uint32_t, POOLS> in_use = {};
+    uint32_t pool_faults = 0; // POOL_* (shaders-spirv/shared/pool.h), of any pool; each is a bug
 };
 
 class World {
@@ -59,11 +64,14 @@ public:
 
     // In the order in which they were added; behind them slots of fragments, some of which may be empty (BODY_ABSENT).
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;
-    // Those of these slots that hold a fragment now. Read anew only where something has broken since they were last asked for.
+    // Those of these slots that hold a fragment now. Read anew only where something has broken or gone since they were last
+    // asked for.
     virtual engine::Result<std::vector<BodyFragment>> fragments() = 0;
     // In the frames of their bodies. `fragments` are of the world as it is now.
     virtual engine::Result<std::vector<SurfaceMesh>> surfacesOf(std::span<const BodyFragment> fragments) = 0;
     virtual engine::Result<WorldCounts> counts() = 0; // of the last step
+    // With the effect `dust`, as it is now; bodies by their index as added.
+    virtual engine::Result<Dust> dust() = 0;
     // With the effect `events`; the device keeps the last 1024. Bodies by their index as added, fragments by their slots.
     virtual engine::Result<Breaks> breaks() = 0;
     // Pieces whose boxes met in the last step, the lower one first, in order. None while all sleep.

@@ -19,8 +19,8 @@ constexpr EffectFacts kFacts[] = {
     {"Fragments break again.", {Effect::ImpactFracture}},
     {"Cells of a body hold together until a load parts them.", {Effect::Contacts}},
     {"Loads are followed through bodies, which break where they cannot carry them.", {Effect::Bonds}},
-    {"What is too small for a body leaves as particles.", {Effect::ImpactFracture}},
-    {"Small fragments go after a time, the oldest first.", {Effect::ImpactFracture}},
+    {"What is too small for a body flies on as particles.", {Effect::ImpactFracture}},
+    {"Small fragments that have come to rest fade and go.", {Effect::ImpactFracture}},
     {"The host is told what has happened.", {}},
     {"Air slows bodies by the square of their speed, and their turning.", {}},
 };

@@ -58,6 +58,7 @@ private:
     // Of what is not there all the time.
     void addVisits(const BodyTrack& track, int node);
     std::array<int, 2> visitsOf(const BodyTrack& track); // times and scales
+    std::array<int, 2> scalesOf(const BodyTrack& track, size_t keys);
     template <size_t width>
     int addKeys(GltfWriter::View view, std::span<const std::array<float, width>> keys);
     void addChannel(int node, const char* path, std::array<int, 2> keys, const char* interpolation);
@@ -149,12 +150,22 @@ int Encoder::timesOf(const BodyTrack& track) {
 }
 
 void Encoder::addVisits(const BodyTrack& track, int node) {
-    if (track.first > 0 || track.end() < times_.size()) addChannel(node, "scale", visitsOf(track), "STEP");
+    const bool fades = std::ranges::any_of(track.scales, [](float scale) { return scale != 1; });
+    const bool visits = track.first > 0 || track.end() < times_.size();
+    if (fades)
+        addChannel(node, "scale", scalesOf(track, track.scales.size()), "STEP");
+    else if (visits)
+        addChannel(node, "scale", visitsOf(track), "STEP");
 }
 
 std::array<int, 2> Encoder::visitsOf(const BodyTrack& track) {
     const auto [entry, is_new] = visits_of_.try_emplace({track.first, track.end()});
-    if (!is_new) return entry->second;
+    if (is_new) entry->second = scalesOf(track, 1);
+    return entry->second;
+}
+
+// Of the first so many times that it is there.
+std::array<int, 2> Encoder::scalesOf(const BodyTrack& track, size_t keys) {
     std::vector<float> times;
     std::vector<Place> scales;
     const auto add = [&](size_t at, float scale) {
@@ -162,9 +173,10 @@ std::array<int, 2> Encoder::visitsOf(const BodyTrack& track) {
         scales.push_back({scale, scale, scale});
     };
     if (track.first > 0) add(0, 0);
-    add(track.first, 1);
+    for (size_t k = 0; k < keys; ++k)
+        add(track.first + k, track.scales[k]);
     if (track.end() < times_.size()) add(track.end(), 0);
-    return entry->second = {writer_.addNumbers(GltfWriter::kTimes, times, 1), addKeys<3>(GltfWriter::kScales, scales)};
+    return {writer_.addNumbers(GltfWriter::kTimes, times, 1), addKeys<3>(GltfWriter::kScales, scales)};
 }
 
 template <size_t width>
@@ -227,6 +239,7 @@ void MotionGlb::addKey(BodyTrack& track, const Pose& pose) {
     const Rotation turn = nearTo(track.turns.empty() ? nullptr : &track.turns.back(), pose.turn);
     track.places.push_back(toFloat(pose.place - origin_));
     track.turns.push_back(turn);
+    track.scales.push_back(static_cast<float>(pose.scale));
     ++keys_;
 }
 

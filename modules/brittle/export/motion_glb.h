@@ -4,8 +4,9 @@
 // the positions of all others count from (dynamics/pose.h, originOf). An animation `motion` moves the nodes by translation and
 // rotation, linear between the times given; what is at one place at all of them has no part in it, and colliders never have.
 // What appears later or goes earlier than the last time has a scale of 0 when it is not there, in steps, and no keys then.
-// Before the animation the nodes stand where they do at the first time, or where they appear. Materials are `outer` and `inner`
-// as of fragments, and `still` for what does not move. The node `camera` is the scene's.
+// What fades gets smaller in the same steps. Before the animation the nodes stand where they do at the first time, or where
+// they appear. Materials are `outer` and `inner` as of fragments, and `still` for what does not move. The node `camera` is the
+// scene's.
 #pragma once
 
 #include "engine/result.h"
@@ -24,6 +25,7 @@ struct BodyTrack {
     size_t first = 0;
     std::vector<std::array<float, 3>> places; // from the origin
     std::vector<std::array<float, 4>> turns;  // unit, each nearer to the last one than to its opposite
+    std::vector<float> scales;
     size_t end() const { return first + places.size(); }
 };
 

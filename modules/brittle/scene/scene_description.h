@@ -113,6 +113,23 @@ struct StepDescription {
     bool operator==(const StepDescription&) const = default;
 };
 
+struct BreakingDescription {
+    double smallest_piece = 0.002;
+    bool operator==(const BreakingDescription&) const = default;
+};
+
+struct DustDescription {
+    double lifetime = 4;
+    bool operator==(const DustDescription&) const = default;
+};
+
+struct DebrisDescription {
+    double below = 0.05;
+    double after = 3;
+    double fade = 1;
+    bool operator==(const DebrisDescription&) const = default;
+};
+
 // 0: as many as the scene needs at its beginning, with room to break.
 struct BudgetDescription {
     uint32_t bodies = 0;
@@ -126,6 +143,7 @@ struct BudgetDescription {
     uint32_t breaking_bodies = 0;
     uint32_t breaking_sites = 0;
     uint32_t breaking_triangles = 0;
+    uint32_t dust = 16384;
     bool operator==(const BudgetDescription&) const = default;
 };
 
@@ -147,6 +165,9 @@ struct SceneDescription {
     double air_density = 1.225;
     double drag_coefficient = 0.47;
     StepDescription step;
+    BreakingDescription breaking;
+    DustDescription dust;
+    DebrisDescription debris;
     BudgetDescription budgets;
     CameraDescription camera;
     std::vector<MaterialDescription> materials;

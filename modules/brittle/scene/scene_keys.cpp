@@ -75,7 +75,7 @@ constexpr SceneKey kSceneKeys[] = {
     {"effects", at<&SceneDescription::effects>, oneOf(kEffectNames), "",
      "what the scene calls for; what is neither in the list nor needed by what is costs nothing; bonds and stress are not "
      "there yet"},
-    {"air_density", at<&SceneDescription::air_density>, from(0, 1e4), "kg/m3", "acts where `effects` has drag"},
+    {"air_density", at<&SceneDescription::air_density>, from(0, 1e4), "kg/m3", "acts where `effects` has drag, and on dust"},
     {"drag_coefficient", at<&SceneDescription::drag_coefficient>, from(0, 100), "",
      "of the ball around a body that air slows it as; acts where `effects` has drag"},
 };
@@ -97,6 +97,24 @@ constexpr SceneKey kStepKeys[] = {
      "separating axes: all of two hulls, or a fixed set, which is looser and cheaper"},
 };
 
+constexpr SceneKey kBreakingKeys[] = {
+    {"smallest_piece", at<&BreakingDescription::smallest_piece>, from(0, 100), "m",
+     "a cell whose volume is less than that of a cube of this edge is no body: it is gone, or dust, where `effects` has dust; "
+     "0: "
+     "every cell is a body"},
+};
+
+constexpr SceneKey kDustKeys[] = {
+    {"lifetime", at<&DustDescription::lifetime>, from(0, 1e6), "s", "after which a particle settles and is not drawn any more"},
+};
+
+constexpr SceneKey kDebrisKeys[] = {
+    {"below", at<&DebrisDescription::below>, from(0, 1e3), "m",
+     "fragments whose volume is less than that of a cube of this edge are debris"},
+    {"after", at<&DebrisDescription::after>, from(0, 1e6), "s", "of rest, before they begin to fade"},
+    {"fade", at<&DebrisDescription::fade>, from(0, 1e6), "s", "that they take to shrink to nothing; then they are gone"},
+};
+
 constexpr SceneKey kBudgetKeys[] = {
     {"bodies", at<&BudgetDescription::bodies>, from(0, kMostElements), "", "at most; 0: what the scene needs"},
     {"pieces", at<&BudgetDescription::pieces>, from(0, kMostElements), "", "convex ones, at most; 0: what the scene needs"},
@@ -113,6 +131,8 @@ constexpr SceneKey kBudgetKeys[] = {
     {"breaking_sites", at<&BudgetDescription::breaking_sites>, from(0, kMostElements), "", "of all of them together; 0: 512"},
     {"breaking_triangles", at<&BudgetDescription::breaking_triangles>, from(0, kMostElements), "",
      "of their surfaces together, and a body with more never breaks; 0: 8192, or twice the largest surface"},
+    {"dust", at<&BudgetDescription::dust>, from(1, 1'000'000), "",
+     "particles that fly at a time, rounded up to a power of two; where there are more, the oldest make room, and are counted"},
 };
 
 constexpr SceneKey kCameraKeys[] = {
@@ -220,6 +240,9 @@ constexpr auto kColliderKeys =
 constexpr SceneSection kSections[] = {
     {SectionId::Scene, "", false, kSceneKeys, "At the top of the file."},
     {SectionId::Step, "step", false, kStepKeys, "How time goes on and contacts are solved."},
+    {SectionId::Breaking, "breaking", false, kBreakingKeys, "Acts where `effects` has impact_fracture."},
+    {SectionId::Dust, "dust", false, kDustKeys, "Acts where `effects` has dust."},
+    {SectionId::Debris, "debris", false, kDebrisKeys, "Acts where `effects` has debris_lifetime."},
     {SectionId::Budgets, "budgets", false, kBudgetKeys, "Room on the device. What does not fit is reported, never dropped."},
     {SectionId::Camera, "camera", false, kCameraKeys, "For pictures and films."},
     {SectionId::Material, "material", true, kMaterialKeys,
@@ -251,6 +274,9 @@ void* ownerOf(SceneDescription& scene, SectionId id, size_t index) {
     switch (id) {
     case SectionId::Scene: return &scene;
     case SectionId::Step: return &scene.step;
+    case SectionId::Breaking: return &scene.breaking;
+    case SectionId::Dust: return &scene.dust;
+    case SectionId::Debris: return &scene.debris;
     case SectionId::Budgets: return &scene.budgets;
     case SectionId::Camera: return &scene.camera;
     case SectionId::Material: return &scene.materials[index];

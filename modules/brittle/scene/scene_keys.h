@@ -42,7 +42,7 @@ struct SceneKey {
     ShapeBits shapes = kEveryShape;
 };
 
-enum class SectionId : uint8_t { Scene, Step, Budgets, Camera, Material, Body, Collider };
+enum class SectionId : uint8_t { Scene, Step, Breaking, Dust, Debris, Budgets, Camera, Material, Body, Collider };
 
 struct SceneSection {
     SectionId id = SectionId::Scene;
@@ -66,7 +66,7 @@ const ShapeDescription* shapeOf(const void* owner, SectionId id);
 // As the section's owner is when nothing was said about it.
 ValueRef defaultOf(const SceneSection& section, const SceneKey& key);
 
-std::span<const std::string_view> shapeNames(); // by ShapeKind
+std::span<const std::string_view> shapeNames();    // by ShapeKind
 std::span<const std::string_view> materialNames(); // the built-in ones
 
 // "a number from 0 to 1", "three numbers, each above 0 and at most 1e+06 (m)", "one of box, ball".
