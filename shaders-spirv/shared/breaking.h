@@ -75,12 +75,12 @@ struct DustShare {
 
 // What the host is told of it. Of two that break each other, the first one's energies are those of both.
 struct BreakEvent {
-    uvec4 what;   // step, counted from 1; body, what hit it, its material
-    uvec4 made;   // fragments that are bodies; 0, or WHOLE_*, why the body stayed whole; of WHOLE_FAILED the count of fracture
-                  // that there was no room for and how much it would have been, 0 and 0 where it was something else
-    uvec4 lacked; // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
-    ivec4 sector; // of the place of the blow; w: cells that were too small to be bodies
-    vec4 offset;  // w: kg of these cells
+    uvec4 what;    // step, counted from 1; body, what hit it, its material
+    uvec4 made;    // fragments that are bodies; 0, or WHOLE_*, why the body stayed whole; of WHOLE_FAILED the count of fracture
+                   // that there was no room for and how much it would have been, 0 and 0 where it was something else
+    uvec4 lacked;  // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
+    ivec4 sector;  // of the place of the blow; w: cells that were too small to be bodies
+    vec4 offset;   // w: kg of these cells
     vec4 along;    // normal, from the body to the other
     vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
     vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack

@@ -8,7 +8,7 @@ GPU_NAMESPACE_BEGIN
 
 // Of a slot of a body.
 struct DebrisClock {
-    ivec4 sector; // where its fragment was a step ago; w: the step that it was made in, DEBRIS_LEAVES in the one in which it goes
+    ivec4 sector; // where its fragment was a step ago; w: the step that it was made in, or DEBRIS_LEAVES while it goes
     vec4 offset;  // w: s, for how long its center of mass has hardly moved, DEBRIS_OVER where its time is over
 };
 #define DEBRIS_OVER 1e30

@@ -1,7 +1,6 @@
 // The scenes in modules/brittle/scene/examples: each says which effects it calls for, and breaks what it says, with nothing lost
 // and nothing flying off.
 #include "modules/brittle/scene/scene_file.h"
-#include "tests/support/known_shortfall.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_run.h"
 
@@ -16,8 +15,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-
-using support::knownShortfall;
 
 constexpr uint32_t kSecond = 60; // steps
 
@@ -179,11 +176,7 @@ TEST(LongExampleScenes, KeepTheirPromisesToTheEnd) {
         const auto scene = example(examplesFolder() / (promise.scene + ".toml"));
         const Story story = watch(scene, scene.step.steps);
         expectKept(promise, story);
-        // A splinter of 10 mg that lies on the ground is held back from turning, and turns the faster in every step.
-        if (promise.scene == "window_pane")
-            knownShortfall("speed of the fastest splinter of the pane", story.since, 2 * story.before);
-        else
-            EXPECT_LE(story.since, 2 * story.before);
+        EXPECT_LE(story.since, 2 * story.before);
     }
 }
 
