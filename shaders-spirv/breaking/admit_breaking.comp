@@ -38,6 +38,7 @@ const float kForEver = 3e38; // s
 shared uint flags[GROUP_SIZE];
 shared uint listed[MOST_BREAKING];
 shared uint sites_of[MOST_BREAKING];
+shared float paid_of[MOST_BREAKING];
 shared uint admitted[MOST_BREAKING];
 shared uint found;
 
@@ -78,9 +79,18 @@ BlowRecord blowOf(uint body) { return blows[chosen[body]]; }
 // Of the blow's energy, what is this body's.
 float joulesOf(BlowRecord blow) { return blow.blow.z * (blow.sides.x == (BREAKS_A | BREAKS_B) ? 0.5 : 1.0); }
 
-uint fragmentsOf(uint body) {
-    BreakableBody b = breakable[body];
-    return fragmentCount(cards[b.surface.w], formOf(b.form.x, b.form.y), joulesOf(blowOf(body)), most_fragments);
+uint patternOf(uint body) { return uint(breakable[body].high.w); }
+BodyForm formOfBody(uint body) { return formOf(breakable[body].form.x, breakable[body].form.y); }
+uint seedOf(uint body) { return mixed(mixed(seed + body) + steps[STEPS_MADE]); }
+
+// That the blow pays for, as a whole number, and so many of them as a body may have; two at least, since it breaks.
+void countFragments(uint k, uint body) {
+    MaterialCard card = cards[breakable[body].surface.w];
+    bool even = patternOf(body) == PATTERN_UNIFORM;
+    float chance = float(mixed(seedOf(body) ^ 0x5bd1e995u) >> CHANCE_SHIFT) * CHANCE_STEP;
+    uint paid = max(fragmentCount(card, formOfBody(body), joulesOf(blowOf(body)), 0xffffffu, chance, even), 2u);
+    paid_of[k] = float(paid);
+    sites_of[k] = min(paid, most_fragments);
 }
 
 uint trianglesOf(uint body) { return (breakable[body].surface.y + breakable[body].surface.z) / 3u; }
@@ -120,10 +130,13 @@ float unitOf(vec3 half_size) {
 
 ivec3 onGridOf(vec4 center, vec3 place) { return onGrid((place - center.xyz) * center.w); }
 
-// A quarter of all sites fall within the contact's radius (lib/draw_impact.glsl): so wide that cells there are no smaller than
-// the material's smallest.
-float leastRadiusFor(uint body, uint sites) {
-    return cards[breakable[body].surface.w].cracks.w * pow(float(sites) * 3.0 / (16.0 * 3.14159265), 1.0 / 3.0);
+// So wide that cells there are no smaller than the material's smallest. In a solid a quarter of the sites about the blow, which
+// are half of all, fall within the contact's radius (lib/draw_impact.glsl); in what is thin as many as fall within
+// (radius / furthest)^(2/3) (lib/draw_plate.glsl).
+float leastRadiusFor(uint body, uint sites, float furthest) {
+    float smallest = cards[breakable[body].surface.w].cracks.w, in_plate = float(sites) * smallest * smallest / 3.14159265;
+    if (isThin(formOfBody(body))) return pow(in_plate / pow(furthest, 2.0 / 3.0), 0.75);
+    return smallest * pow(float(sites) * 3.0 / (32.0 * 3.14159265), 1.0 / 3.0);
 }
 
 // Where the contact has grown to when it presses most (Hertz). Flat is what does not move: it is larger than what hits it.
@@ -134,22 +147,66 @@ float contactRadiusOf(uint body, uint other, BlowRecord blow) {
     return hertzRadiusOf(Blow(blow.blow.x, blow.blow.y, float(RIGID_IMPEDANCE)), 1.0 / curved, 1.0 / (1.0 / own + 1.0 / other_modulus));
 }
 
+// Edges of the box that weighs as it does, along its own axes; of what has no mass those of its surface's bounds.
+vec3 edgesOf(uint body) {
+    BreakableBody b = breakable[body];
+    if (bodies[body].offset.w == 0.0) return b.high.xyz - b.low.xyz;
+    vec3 moments = vec3(1.0 / shapes[body].inverse_inertia[0].x, 1.0 / shapes[body].inverse_inertia[1].y, 1.0 / shapes[body].inverse_inertia[2].z);
+    vec3 squares = 0.5 * (moments.x + moments.y + moments.z) - moments;
+    return sqrt(max(12.0 * bodies[body].offset.w * squares, 0.0));
+}
+
+// A plane that all of a flat body lies near, in the frame of its vertices.
+struct Plane {
+    bool is_flat;
+    float depth; // all of it lies within, on either side
+    vec3 across;
+    vec3 along;
+};
+
+const float kFlat = 3.0; // times as wide as thick, both ways
+
+Plane planeOf(uint body) {
+    vec3 edges = edgesOf(body);
+    uint thin = edges.x <= edges.y && edges.x <= edges.z ? 0u : edges.y <= edges.z ? 1u : 2u, next = (thin + 1u) % 3u, last = (thin + 2u) % 3u;
+    vec4 turn = bodies[body].offset.w == 0.0 ? vec4(0.0, 0.0, 0.0, 1.0) : turnBack(breakable[body].turn);
+    vec3 across = vec3(0.0), along = vec3(0.0);
+    across[next] = 1.0;
+    along[last] = 1.0;
+    return Plane(kFlat * edges[thin] < min(edges[next], edges[last]), edges[thin], turned(turn, across), turned(turn, along));
+}
+
+int placementOf(uint body, bool is_flat) {
+    bool even = patternOf(body) == PATTERN_UNIFORM, thin = isThin(formOfBody(body));
+    if (thin && is_flat) return even ? SITES_FLAT_EVEN : patternOf(body) == PATTERN_RADIAL ? SITES_RADIAL : SITES_FLAT;
+    return even ? SITES_EVEN : thin ? SITES_SHELL : SITES_SOLID;
+}
+
+const float kAxisUnit = 16384.0;
+
 void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord blow) {
     BreakableBody b = breakable[body];
     vec4 center = vec4(0.5 * (b.low.xyz + b.high.xyz), unitOf(0.5 * (b.high.xyz - b.low.xyz)));
     vec3 own = turned(turnBack(bodies[body].turn), arm), place = turned(turnBack(b.turn), own) + b.balance.xyz;
+    Plane plane = planeOf(body);
+    int placement = placementOf(body, plane.is_flat);
+    bool in_plane = placement == SITES_FLAT || placement == SITES_FLAT_EVEN || placement == SITES_RADIAL;
+    vec3 normal = cross(plane.across, plane.along), to_middle = dot(b.balance.xyz - place, normal) * normal;
+    if (in_plane) place += to_middle;
     ivec3 low = onGridOf(center, b.low.xyz), high = onGridOf(center, b.high.xyz), at = clamp(onGridOf(center, place), low, high);
     vec3 far = vec3(max(at - low, high - at));
-    float meters = max(contactRadiusOf(body, other, blow), leastRadiusFor(body, sites));
-    float radius = meters * center.w * kHalfEdge, furthest = ceil(length(far)) + 1.0;
+    float grid = center.w * kHalfEdge, furthest = ceil(length(far)) + 1.0;
+    float meters = max(contactRadiusOf(body, other, blow), leastRadiusFor(body, sites, furthest / grid));
     breaking[k].center = center;
     breaking[k].range.xyz = b.surface.xyz;
-    breaking[k].impact = ivec4(at, int(clamp(radius, 1.0, furthest)));
+    breaking[k].impact = ivec4(at, int(clamp(meters * grid, 1.0, furthest)));
     breaking[k].low = ivec4(low, int(furthest));
-    breaking[k].high = ivec4(high, int(mixed(mixed(seed + body) + steps[STEPS_MADE])));
+    breaking[k].high = ivec4(high, int(seedOf(body)));
+    breaking[k].across = ivec4(roundEven(plane.across * kAxisUnit), placement);
+    breaking[k].along = ivec4(roundEven(plane.along * kAxisUnit), int(min(plane.depth * grid, furthest)) + 1);
 }
 
-void setBroken(uint k, uint body, uint sites) {
+void setBroken(uint k, uint body, uint sites, float paid) {
     uint pair = chosen[body];
     BlowRecord blow = blows[pair];
     bool is_b = memory[pair].ids.x != body;
@@ -158,7 +215,7 @@ void setBroken(uint k, uint body, uint sites) {
     float joules = cards[breakable[body].surface.w].cracks.z * joulesOf(blow);
     broken[k].ids = uvec4(body, other, pair, is_b ? 1u : 0u);
     broken[k].blow = vec4(blow.blow.xy, joules, 0.0);
-    broken[k].share = vec4(joulesOf(blow), 0.0, 0.0, 0.0);
+    broken[k].share = vec4(joulesOf(blow), paid, 0.0, 0.0);
     broken[k].place = vec4(arm, blow.blow.w);
     broken[k].along = vec4(is_b ? -normal : normal, 0.0);
     setRecord(k, body, other, sites, arm, blow);
@@ -168,11 +225,11 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     if (world_counts[COUNT_BLOWS] == 0u || world_counts[STATUS_FAILED] != 0u) return;
     listBroken(lane);
-    for (uint k = lane; k < found; k += GROUP_SIZE) sites_of[k] = fragmentsOf(listed[k]);
+    for (uint k = lane; k < found; k += GROUP_SIZE) countFragments(k, listed[k]);
     barrier();
     if (lane == 0u) admit();
     barrier();
     for (uint k = lane; k < found; k += GROUP_SIZE) {
-        if (admitted[k] != NO_INDEX) setBroken(admitted[k], listed[k], sites_of[k]);
+        if (admitted[k] != NO_INDEX) setBroken(admitted[k], listed[k], sites_of[k], paid_of[k]);
     }
 }

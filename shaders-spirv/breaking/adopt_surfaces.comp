@@ -63,5 +63,5 @@ void main() {
     joinBounds(lane);
     if (lane != 0u) return;
     breakable[room[ROOM_BODY]].low.xyz = lows[0];
-    breakable[room[ROOM_BODY]].high = vec4(highs[0], 0.0);
+    breakable[room[ROOM_BODY]].high.xyz = highs[0];
 }

@@ -42,7 +42,8 @@ bool breaksBody(uint body, uint other, BlowRecord record, float share) {
     BodyForm form = formOf(b.form.x, b.form.y);
     MaterialCard card = cards[b.surface.w];
     Blow blow = Blow(record.blow.x, record.blow.y, impedanceOf(other));
-    return breaks(card, form, b.form.z, blow) && fragmentCount(card, form, share * energyOf(blow), 0xffffffu) >= 2u;
+    bool even = uint(b.high.w) == PATTERN_UNIFORM;
+    return breaks(card, form, b.form.z, blow, even) && paysForTwo(card, form, share * energyOf(blow), even);
 }
 
 uint sidesThatBreak(uvec4 ids, BlowRecord record) {

@@ -1,5 +1,5 @@
 // Sites of all that breaks, each inside its object: a workgroup a site, whose lanes share the triangles that tell inside from
-// outside. Drawn about the impact, and where that finds no place, evenly.
+// outside. Drawn as the record says (SITES_*), and where that finds no place, evenly.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -19,6 +19,7 @@ uint seed_low, seed_high;
 #include "lib/breaking_corner.glsl"
 #include "lib/draw.glsl"
 #include "lib/draw_impact.glsl"
+#include "lib/draw_plate.glsl"
 #include "lib/winding.glsl"
 
 const uint kTurnBudget = 56000u; // of the 65,535 that Mesa's software device allows
@@ -64,11 +65,20 @@ ivec3 drawEvenly(uint site, uint attempt, BreakingRecord object) {
     return p;
 }
 
+// Every other site of a solid lies evenly: all of it is strained (modules/brittle/effects/material.h).
+bool isEven(uint site, uint attempt, int placement) {
+    bool always = placement == SITES_EVEN || placement == SITES_FLAT_EVEN || (placement == SITES_SOLID && (site & 1u) != 0u);
+    return always || attempt >= IMPACT_DRAWS;
+}
+
 bool drawFor(uint site, uint attempt, BreakingRecord object, out ivec3 p) {
-    ivec3 about;
-    bool found = drawAbout(site, attempt, object.impact, uint(object.low.w), about), even = attempt >= IMPACT_DRAWS;
-    p = even ? drawEvenly(site, attempt, object) : about;
-    return (even || found) && all(greaterThanEqual(p, object.low.xyz)) && all(lessThanEqual(p, object.high.xyz));
+    int placement = object.across.w;
+    bool even = isEven(site, attempt, placement), found = true;
+    if (placement == SITES_FLAT || placement == SITES_FLAT_EVEN) found = drawOnPlate(site, attempt, object, even, p);
+    else if (even) p = drawEvenly(site, attempt, object);
+    else if (placement == SITES_SHELL) found = drawInShell(site, attempt, object, p);
+    else found = drawAbout(site, attempt, object.impact, uint(object.low.w), p);
+    return found && all(greaterThanEqual(p, object.low.xyz)) && all(lessThanEqual(p, object.high.xyz));
 }
 
 void main() {

@@ -47,7 +47,7 @@ BreakEvent eventOf(uint k) {
     event.lacked = why == WHOLE_NO_ROOM ? lacking[k] : uvec4(0u);
     event.sector = ivec4(bodies[body].sector.xyz + sectors, int(small));
     event.offset = vec4(offsetWithin(offset, sectors), why == 0u ? densityOf(body) * dust[k].volume : 0.0);
-    event.along = hit.along;
+    event.along = vec4(hit.along.xyz, hit.share.y);
     event.blow = hit.blow;
     event.energies = why == 0u ? ledger[k].energies : vec4(0.0);
     return event;

@@ -105,6 +105,7 @@ void setBreakable(uint slot, uint f, Weighed w, uint parent, float unit) {
     bool again = breakable[parent].balance.w > 0.0;
     breakable[slot].low.w = again ? breakable[parent].low.w : float(parent);
     breakable[slot].balance = vec4(w.balance, float(steps[STEPS_MADE]));
+    breakable[slot].high.w = breakable[parent].high.w;
     breakable[slot].turn = turnBack(w.axes);
 }
 

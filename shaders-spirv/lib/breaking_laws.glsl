@@ -25,14 +25,37 @@ BodyForm formOf(float volume, float surface) {
     return BodyForm(volume, surface, round_ ? edge : side, round_ ? edge : min(side, volume / (side * side)));
 }
 
-float cubed(float x) { return x * x * x; }
+bool isThin(BodyForm form) { return float(THIN) * form.thickness < form.side; }
 
-float expectedFragments(MaterialCard card, BodyForm form, float joules) {
-    float made = 2.0 * card.cracks.z * joules / card.cracks.y, edge = pow(form.volume, 1.0 / 3.0);
-    bool is_plate = form.thickness < form.side && made + form.surface < 6.0 * form.side * form.side;
-    float plate = (made / form.thickness + float(CELL_OUTLINE) * form.side) / (float(CELL_OUTLINE) * form.side);
-    float solid = cubed((made + form.surface) / (float(CELL_SURFACE) * edge * edge));
-    return max(1.0, is_plate ? plate * plate : solid);
+float cracksOfSolid(BodyForm form, float count, bool even) {
+    float edge = pow(form.volume, 1.0 / 3.0), rim = 1.0 - 1.0 / count;
+    float crowded = even ? 1.0 : float(BLOW_IN_SOLID) + float(BLOW_IN_SOLID_MORE) * inversesqrt(count);
+    return crowded * 0.5 * float(CELL_SURFACE) * edge * edge * (pow(count, 1.0 / 3.0) - 1.0 / count) - float(SOLID_RIM) * max(form.surface, 6.0 * edge * edge) * rim;
+}
+
+float cracksOfPlate(BodyForm form, float count, bool even) {
+    float wall = form.side * form.thickness, rim = 1.0 - 1.0 / count, crowded = even ? 1.0 : float(BLOW_IN_PLATE) + float(BLOW_IN_PLATE_MORE) * inversesqrt(count);
+    return crowded * 0.5 * float(CELL_OUTLINE) * wall * (sqrt(count) - 1.0 / count) - 4.0 * float(PLATE_RIM) * wall * rim;
+}
+
+float crackAreaOf(BodyForm form, float count, bool even) {
+    if (count <= 1.0) return 0.0;
+    float wide = form.side / form.thickness, most = wide * wide;
+    if (!isThin(form)) return max(cracksOfSolid(form, count, even), 0.0);
+    float plate = cracksOfPlate(form, min(count, most), even);
+    return count <= most ? plate : max(plate, cracksOfSolid(form, count, even));
+}
+
+// crackAreaOf grows with the count: the most that can be paid for, between 1 and 2^24, by halving.
+float expectedFragments(MaterialCard card, BodyForm form, float joules, bool even) {
+    float area = card.cracks.z * joules / card.cracks.y, low = 0.0, high = 24.0;
+    for (uint k = 0u; k < 28u; k++) {
+        float middle = 0.5 * (low + high);
+        bool paid = crackAreaOf(form, exp2(middle), even) <= area;
+        low = paid ? middle : low;
+        high = paid ? high : middle;
+    }
+    return exp2(low);
 }
 
 float roomForFragments(MaterialCard card, BodyForm form) {
@@ -40,8 +63,14 @@ float roomForFragments(MaterialCard card, BodyForm form) {
     return max(1.0, across * across * max(1.0, deep));
 }
 
-uint fragmentCount(MaterialCard card, BodyForm form, float joules, uint budget) {
-    return uint(min(min(expectedFragments(card, form, joules), roomForFragments(card, form)), float(budget)));
+// To the next whole number below or above, more often to the nearer one: a chance of 0 rounds down.
+uint fragmentCount(MaterialCard card, BodyForm form, float joules, uint budget, float chance, bool even) {
+    return uint(min(min(floor(expectedFragments(card, form, joules, even) + chance), roomForFragments(card, form)), float(budget)));
+}
+
+// Whether the energy pays for two fragments, for which there is room.
+bool paysForTwo(MaterialCard card, BodyForm form, float joules, bool even) {
+    return card.cracks.z * joules >= card.cracks.y * crackAreaOf(form, 2.0, even) && roomForFragments(card, form) >= 2.0;
 }
 
 // The chance is that of the object, bit for bit the host's.
@@ -59,8 +88,8 @@ float impactStress(MaterialCard card, BodyForm form, Blow blow) {
     return gain * card.elastic.z / (1.0 + card.elastic.z / blow.other_impedance) * blow.speed;
 }
 
-bool breaks(MaterialCard card, BodyForm form, float strength, Blow blow) {
-    return impactStress(card, form, blow) >= strength && fragmentCount(card, form, energyOf(blow), 0xffffffu) >= 2u;
+bool breaks(MaterialCard card, BodyForm form, float strength, Blow blow, bool even) {
+    return impactStress(card, form, blow) >= strength && paysForTwo(card, form, energyOf(blow), even);
 }
 
 // N s, which takes so much energy from the motion of both and never turns them back.

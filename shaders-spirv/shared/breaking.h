@@ -17,8 +17,23 @@ struct BreakingRecord {
     ivec4 impact; // where it is hit, on its grid; w: contact radius, grid steps, at least 1
     ivec4 low;    // of its surface on its grid; w: to the furthest place of it from the impact
     ivec4 high;   // w: seed of its draws
-    uvec4 sites;  // first of all that break, how many
+    uvec4 sites;  // first of all that break, how many; of SITES_RADIAL spokes, and the ratio of a ring's radius to the last
+                  // one's, of 2^16
+    ivec4 across; // unit vector in the plane of what is flat, of 2^14; w: SITES_*
+    ivec4 along;  // another one, at a right angle; w: grid steps from the middle plane, within which all of it lies
 };
+
+// How the sites of an object lie. Patterns are asked for, and what comes of them depends on the object's form.
+#define SITES_SOLID 0     /* the even ones about the blow, the odd ones evenly (lib/draw_impact.glsl) */
+#define SITES_FLAT 1      /* about the blow, in a plane (lib/draw_plate.glsl) */
+#define SITES_SHELL 2     /* about the blow, in a thin wall that is not flat */
+#define SITES_EVEN 3      /* evenly */
+#define SITES_FLAT_EVEN 4 /* evenly, in a plane */
+#define SITES_RADIAL 5    /* in sectors and rings about the blow, in a plane (lib/draw_radial.glsl) */
+// As BreakPattern of a scene has them; what is not thin and flat takes PATTERN_RADIAL for PATTERN_IMPACT.
+#define PATTERN_IMPACT 0
+#define PATTERN_UNIFORM 1
+#define PATTERN_RADIAL 2
 
 // What of a body there is to break, for every slot of a body. Its surface keeps the frame in which it was made, however often
 // what it bounds breaks: turning its vertices would round them.
@@ -27,10 +42,10 @@ struct BreakableBody {
                    // not break
     vec4 form;     // volume, all of its surface, strength; w: s, of the world's time until which no blow breaks it
     vec4 low;      // of its surface, frame of its vertices; w: of a fragment the slot of the first body that it was a part of
-    vec4 high;
-    vec4 balance; // center of mass, frame of its vertices; w: the step that it was made in, counted from 1, 0 for what has
-                  // always been
-    vec4 turn;    // from the frame of its vertices to its own axes
+    vec4 high;     // w: PATTERN_*
+    vec4 balance;  // center of mass, frame of its vertices; w: the step that it was made in, counted from 1, 0 for what has
+                   // always been
+    vec4 turn;     // from the frame of its vertices to its own axes
 };
 
 // Of a fragment: between any two of one body lay the plane halfway between their sites.
@@ -58,7 +73,7 @@ struct BrokenBody {
     vec4 blow;  // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took, once it is known
     vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
     vec4 along; // normal, from the body to the other
-    vec4 share; // J, of the blow's energy that this body may spend, all of it
+    vec4 share; // J, of the blow's energy that this body may spend, all of it; fragments that it pays for, room or no room
 };
 
 // What a blow has cost, in the order of BrokenBodies; with the first of two that break each other, for both.
@@ -81,7 +96,8 @@ struct BreakEvent {
     uvec4 lacked;  // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
     ivec4 sector;  // of the place of the blow; w: cells that were too small to be bodies
     vec4 offset;   // w: kg of these cells
-    vec4 along;    // normal, from the body to the other
+    vec4 along;    // normal, from the body to the other; w: fragments that the blow pays for, more than there are sites for
+                   // where the budget of one body has cut them short
     vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
     vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack
 };
@@ -114,7 +130,7 @@ struct BreakEvent {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::BreakingRecord) == 96 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
+static_assert(sizeof(gpu::BreakingRecord) == 128 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
               sizeof(gpu::BlowRecord) == 64);
 static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128 && sizeof(gpu::DustShare) == 8 &&
               sizeof(gpu::Birth) == 48);

@@ -11,6 +11,18 @@ GPU_NAMESPACE_BEGIN
 #define CELL_SURFACE 5.821
 // The same in a plane, one site a square meter: the outline of a cell.
 #define CELL_OUTLINE 4.0
+// What cells at the rim of a body lack, of a square meter of its surface, for want of sites beyond it; in plates of one of the
+// plate's rim. Measured (modules/brittle/effects/fragment_count.h).
+#define SOLID_RIM 0.37
+#define PLATE_RIM 0.4
+// Cracks among sites that crowd about a blow, over those among as many that lie evenly: with the count n, FEW + MORE / root of
+// n.
+#define BLOW_IN_SOLID 0.85
+#define BLOW_IN_SOLID_MORE 0.2
+#define BLOW_IN_PLATE 0.86
+#define BLOW_IN_PLATE_MORE 0.25
+// A body is thin, and breaks as a plate does, if its thickness is less than its side by this.
+#define THIN 3.0
 
 // Bending makes of the stress of a blow at most the root of this, in thin bodies.
 #define BENDING_GAIN_SQUARED 3.0

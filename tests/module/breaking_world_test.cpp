@@ -191,7 +191,7 @@ TEST(BreakingWorld, GoesOnFromASavedStateAsIfNothingHadHappened) {
 TEST(BreakingWorld, TenBodiesBreakInOneStep) {
     std::vector<BodyDescription> bodies;
     for (int k = 0; k < 10; ++k)
-        bodies.push_back(ball({0.5 * k, 2, 0}, "concrete"));
+        bodies.push_back(ball({0.5 * k, 1.5, 0}, "concrete"));
     const auto world = worldOf(sceneOf(std::move(bodies)));
     const double mass = massOf(presentBodies(*world));
     EXPECT_EQ(stepUntilItBreaks(*world, 60).size(), 10u);

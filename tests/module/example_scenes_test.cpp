@@ -1,5 +1,5 @@
-// The scenes in modules/brittle/scene/examples: each says which effects it calls for, and breaks what it says, with nothing lost
-// and nothing flying off.
+// The scenes in modules/brittle/scene/examples: each says which effects it calls for, and breaks what it says, with nothing
+// lost and nothing flying off.
 #include "modules/brittle/scene/scene_file.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_run.h"
@@ -176,7 +176,10 @@ TEST(LongExampleScenes, KeepTheirPromisesToTheEnd) {
         const auto scene = example(examplesFolder() / (promise.scene + ".toml"));
         const Story story = watch(scene, scene.step.steps);
         expectKept(promise, story);
-        EXPECT_LE(story.since, 2 * story.before);
+        if (promise.scene == "window_pane")
+            EXPECT_LE(story.since, 2 * story.before) << "speed of the fastest splinter";
+        else
+            EXPECT_LE(story.since, 2 * story.before);
     }
 }
 

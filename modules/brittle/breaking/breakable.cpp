@@ -70,7 +70,7 @@ Result<void> makeBreakable(WorldContents& contents, const BreakableDefinition& d
     const double strength = strengthOf(d.material, d.volume, chanceOf(d.seed, d.body));
     body.form = {static_cast<float>(d.volume), static_cast<float>(extent.area), static_cast<float>(strength), 0};
     body.low = {extent.low[0], extent.low[1], extent.low[2], 0};
-    body.high = {extent.high[0], extent.high[1], extent.high[2], 0};
+    body.high = {extent.high[0], extent.high[1], extent.high[2], static_cast<float>(d.pattern)};
     body.balance = {0, 0, 0, 0};
     body.turn = {static_cast<float>(-axes[0]), static_cast<float>(-axes[1]), static_cast<float>(-axes[2]),
                  static_cast<float>(axes[3])};

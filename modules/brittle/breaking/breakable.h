@@ -16,6 +16,7 @@ struct BreakableDefinition {
     const Material& material;
     double volume = 0; // m3, of the surface
     uint64_t seed = 1; // of how strong it is, with the body's number
+    uint32_t pattern = PATTERN_IMPACT;
 };
 
 // From now on the body can break. Errors: BadInput for a surface without triangles or a volume that is none.

@@ -35,8 +35,10 @@ double impactStress(const Material& material, const BodyForm& form, const Blow& 
     return bendingGainOf(form) * impedance / (1 + impedance / blow.other_impedance) * blow.speed;
 }
 
-bool breaks(const Material& material, const BodyForm& form, double strength, const Blow& blow) {
-    return impactStress(material, form, blow) >= strength && fragmentCount(material, form, energyOf(blow), 0) >= 2;
+bool breaks(const Material& material, const BodyForm& form, double strength, const Blow& blow, Spread spread) {
+    const double needed = energyForFragments(material, form, 2, spread);
+    const bool pays = needed <= energyOf(blow) && roomForFragments(material, form) >= 2;
+    return pays && impactStress(material, form, blow) >= strength;
 }
 
 double affordedCracks(const Material& material, double joules) { return material.eta * joules / material.fracture_energy; }

@@ -36,7 +36,8 @@ double bendingGainOf(const BodyForm& form);
 double impactStress(const Material& material, const BodyForm& form, const Blow& blow);
 
 // Where the stress is no less than the strength, and the energy pays for two fragments for which there is room.
-bool breaks(const Material& material, const BodyForm& form, double strength, const Blow& blow);
+bool breaks(const Material& material, const BodyForm& form, double strength, const Blow& blow,
+            Spread spread = Spread::AboutBlow);
 
 // m2 of crack that is paid for: eta E / G_c. Joules at least 0.
 double affordedCracks(const Material& material, double joules);

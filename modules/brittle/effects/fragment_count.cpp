@@ -7,19 +7,28 @@
 namespace brittle {
 namespace {
 
-// m2 of surface that so much energy makes: a crack has two sides.
-double newSurfaceOf(const Material& material, double joules) { return 2 * material.eta * joules / material.fracture_energy; }
+constexpr double kMost = 1 << 24;
 
 double squared(double x) { return x * x; }
 
 // Cells that are as wide as the plate is thick: the plate's law holds for no more.
 double mostInPlate(const BodyForm& form) { return squared(form.side / form.thickness); }
 
-// The surface that a body has once it is broken, at which the solid's law takes over; the plate's law has come to mostInPlate.
-double surfaceAtSwitch(const BodyForm& form) { return 6 * squared(form.side); }
+double crowdingOf(double in_all, double more, double count, Spread spread) {
+    return spread == Spread::Even ? 1 : in_all + more / std::sqrt(count);
+}
 
-bool isPlate(const BodyForm& form, double all_surface) {
-    return form.thickness < form.side && all_surface < surfaceAtSwitch(form);
+double cracksOfSolid(const BodyForm& form, double count, Spread spread) {
+    const double square = squared(std::cbrt(form.volume));
+    const double bulk = CELL_SURFACE / 2 * square * (std::cbrt(count) - 1 / count);
+    const double rim = SOLID_RIM * std::max(form.surface, 6 * square) * (1 - 1 / count);
+    return crowdingOf(BLOW_IN_SOLID, BLOW_IN_SOLID_MORE, count, spread) * bulk - rim;
+}
+
+double cracksOfPlate(const BodyForm& form, double count, Spread spread) {
+    const double wall = form.side * form.thickness;
+    const double bulk = CELL_OUTLINE / 2 * wall * (std::sqrt(count) - 1 / count);
+    return crowdingOf(BLOW_IN_PLATE, BLOW_IN_PLATE_MORE, count, spread) * bulk - PLATE_RIM * 4 * wall * (1 - 1 / count);
 }
 
 } // namespace
@@ -33,21 +42,24 @@ BodyForm formOf(double volume, double surface) {
     return {volume, surface, side, std::min(side, volume / squared(side))};
 }
 
-double solidFragments(const Material& material, double joules, double volume, double surface) {
-    const double ratio = (newSurfaceOf(material, joules) + surface) / (CELL_SURFACE * squared(std::cbrt(volume)));
-    return ratio * ratio * ratio;
+bool isThin(const BodyForm& form) { return THIN * form.thickness < form.side; }
+
+double crackAreaOf(const BodyForm& form, double count, Spread spread) {
+    if (count <= 1) return 0;
+    if (!isThin(form)) return std::max(0.0, cracksOfSolid(form, count, spread));
+    const double plate = cracksOfPlate(form, std::min(count, mostInPlate(form)), spread);
+    return count <= mostInPlate(form) ? plate : std::max(plate, cracksOfSolid(form, count, spread));
 }
 
-double plateFragments(const Material& material, double joules, double area, double perimeter, double thickness) {
-    return squared((newSurfaceOf(material, joules) / thickness + perimeter) / (CELL_OUTLINE * std::sqrt(area)));
-}
-
-double expectedFragments(const Material& material, const BodyForm& form, double joules) {
-    const double all = newSurfaceOf(material, joules) + form.surface;
-    const double count = isPlate(form, all)
-                             ? plateFragments(material, joules, squared(form.side), CELL_OUTLINE * form.side, form.thickness)
-                             : solidFragments(material, joules, form.volume, form.surface);
-    return std::max(1.0, count);
+// By halving: the law has no inverse that could be written down.
+double expectedFragments(const Material& material, const BodyForm& form, double joules, Spread spread) {
+    const double area = material.eta * joules / material.fracture_energy;
+    double low = 0, high = std::log2(kMost);
+    for (int k = 0; k < 60; ++k) {
+        const double middle = (low + high) / 2;
+        (crackAreaOf(form, std::exp2(middle), spread) <= area ? low : high) = middle;
+    }
+    return std::exp2(low);
 }
 
 double roomForFragments(const Material& material, const BodyForm& form) {
@@ -55,24 +67,15 @@ double roomForFragments(const Material& material, const BodyForm& form) {
     return std::max(1.0, squared(across) * std::max(1.0, deep));
 }
 
-uint32_t fragmentCount(const Material& material, const BodyForm& form, double joules, uint32_t budget) {
+uint32_t fragmentCount(const Material& material, const BodyForm& form, double joules, uint32_t budget, double chance,
+                       Spread spread) {
     const double most = budget == 0 ? std::numeric_limits<uint32_t>::max() : budget;
-    const double count = std::min(expectedFragments(material, form, joules), roomForFragments(material, form));
-    return static_cast<uint32_t>(std::floor(std::min(count, most)));
+    const double count = std::floor(expectedFragments(material, form, joules, spread) + chance);
+    return static_cast<uint32_t>(std::min({count, std::floor(roomForFragments(material, form)), most}));
 }
 
-double crackAreaOf(const BodyForm& form, double count) {
-    if (count <= 1) return 0;
-    if (form.thickness < form.side && count <= mostInPlate(form))
-        return std::max(0.0, (std::sqrt(count) - 1) * CELL_OUTLINE * form.side * form.thickness / 2);
-    const double all = CELL_SURFACE * squared(std::cbrt(form.volume)) * std::cbrt(count);
-    // Counts that lie between what the two laws say at the switch are reached by it, and not before.
-    const double least = form.thickness < form.side ? surfaceAtSwitch(form) : form.surface;
-    return (std::max(all, least) - form.surface) / 2;
-}
-
-double energyForFragments(const Material& material, const BodyForm& form, double count) {
-    const double area = crackAreaOf(form, count);
+double energyForFragments(const Material& material, const BodyForm& form, double count, Spread spread) {
+    const double area = crackAreaOf(form, count, spread);
     return area > 0 ? material.fracture_energy * area / material.eta : 0;
 }
 

@@ -16,12 +16,17 @@
 // each square meter of crack, which has two sides. A share eta of the blow's energy goes there; the rest goes into motion,
 // sound and heat, and there is no law for how much, so it is the one dial. Cells of N random sites have together a surface of
 // 5.821 V^(2/3) N^(1/3) (Meijering, Interface area, edge length, and number of vertices in crystal aggregates, 1953), half of
-// which is saved as each cut serves two, but for what was there before. That gives N.
+// which is saved as each cut serves two. Where sites crowd there is less of it, and at the rim; fragment_count.h has how much.
+// That gives N.
 //
 // Ledger (blow.h). What cracks take is missing from the motion of the two bodies that met, and nothing else is.
 //
 // Place (blow.h). The contact has grown to the radius of Hertz (On the contact of elastic solids, 1882) when it presses most;
-// within it cells are smallest.
+// within it cells are smallest. Outside, what a blow strains spreads over half spheres, and falls as r^-2; in what is thin over
+// rings, and falls as 1/r. Fragments of what is strained at the rate e are as large as e^(-2/3) (Grady, Local inertial effects
+// in dynamic fragmentation, 1982): r^(4/3) and r^(2/3). So their sites are as dense as r^-4 in space, and as r^(-4/3) in a
+// plane. In a solid that alone would leave most of it in one piece, which the stress that broke it has gone through as well, as
+// waves that come back: half of the sites lie about the blow, and half evenly. The half is chosen.
 #pragma once
 
 #include "shaders-spirv/shared/material.h"
