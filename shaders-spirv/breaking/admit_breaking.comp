@@ -83,12 +83,75 @@ uint patternOf(uint body) { return uint(breakable[body].high.w); }
 BodyForm formOfBody(uint body) { return formOf(breakable[body].form.x, breakable[body].form.y); }
 uint seedOf(uint body) { return mixed(mixed(seed + body) + steps[STEPS_MADE]); }
 
+// Edges of the box that weighs as it does, along its own axes; of what has no mass those of its surface's bounds.
+vec3 edgesOf(uint body) {
+    BreakableBody b = breakable[body];
+    if (bodies[body].offset.w == 0.0) return b.high.xyz - b.low.xyz;
+    vec3 moments = vec3(1.0 / shapes[body].inverse_inertia[0].x, 1.0 / shapes[body].inverse_inertia[1].y, 1.0 / shapes[body].inverse_inertia[2].z);
+    vec3 squares = 0.5 * (moments.x + moments.y + moments.z) - moments;
+    return sqrt(max(12.0 * bodies[body].offset.w * squares, 0.0));
+}
+
+// A plane that all of a flat body lies near, in the frame of its vertices.
+struct Plane {
+    bool is_flat;
+    float depth; // all of it lies within, on either side
+    vec3 across;
+    vec3 along;
+};
+
+const float kFlat = 3.0; // times as wide as thick, both ways
+
+Plane planeOf(uint body) {
+    vec3 edges = edgesOf(body);
+    uint thin = edges.x <= edges.y && edges.x <= edges.z ? 0u : edges.y <= edges.z ? 1u : 2u, next = (thin + 1u) % 3u, last = (thin + 2u) % 3u;
+    vec4 turn = bodies[body].offset.w == 0.0 ? vec4(0.0, 0.0, 0.0, 1.0) : turnBack(breakable[body].turn);
+    vec3 across = vec3(0.0), along = vec3(0.0);
+    across[next] = 1.0;
+    along[last] = 1.0;
+    return Plane(kFlat * edges[thin] < min(edges[next], edges[last]), edges[thin], turned(turn, across), turned(turn, along));
+}
+
+int placementOf(uint body, bool is_flat) {
+    bool even = patternOf(body) == PATTERN_UNIFORM, thin = isThin(formOfBody(body));
+    if (thin && is_flat) return even ? SITES_FLAT_EVEN : patternOf(body) == PATTERN_RADIAL ? SITES_RADIAL : SITES_FLAT;
+    return even ? SITES_EVEN : thin ? SITES_SHELL : SITES_SOLID;
+}
+
+// Spokes and rings whose cracks cost what the blow pays for. Spokes are as many as the root of the speed (Vandenberghe,
+// Vermorel, Villermaux, Star-shaped crack pattern of broken windows, 2013), and fewer where that would take all; rings take what
+// spokes leave, each wider than the one within by a ratio: together 2 pi R / (ratio - 1), for a plate of the radius R.
+struct Rays {
+    uint spokes;
+    uint rings;
+    float ratio;
+};
+
+const float kSpokes = 2.0;      // at 1 m/s; chosen
+const float kInnermost = 24.0;  // of a plate's side: the first ring's share
+
+Rays raysOf(uint body, BlowRecord blow) {
+    BodyForm form = formOfBody(body);
+    MaterialCard card = cards[breakable[body].surface.w];
+    float long_ = card.cracks.z * joulesOf(blow) / card.cracks.y / form.thickness, radius = 0.5642 * form.side;
+    float spokes = min(max(floor(kSpokes * sqrt(blow.blow.y)), 3.0), float(max(most_fragments, 3u)));
+    float left = long_ - spokes * radius;
+    if (left <= 0.5 * radius) return Rays(clamp(uint(long_ / radius), 2u, uint(spokes)), 1u, 2.0);
+    float ratio = clamp(1.0 + 6.2832 * radius / left, 1.05, 8.0);
+    uint rings = 2u + uint(log(0.75 * kInnermost) / log(ratio));
+    return Rays(uint(spokes), clamp(rings, 1u, max(most_fragments / uint(spokes), 1u)), ratio);
+}
+
 // That the blow pays for, as a whole number, and so many of them as a body may have; two at least, since it breaks.
 void countFragments(uint k, uint body) {
     MaterialCard card = cards[breakable[body].surface.w];
     bool even = patternOf(body) == PATTERN_UNIFORM;
     float chance = float(mixed(seedOf(body) ^ 0x5bd1e995u) >> CHANCE_SHIFT) * CHANCE_STEP;
     uint paid = max(fragmentCount(card, formOfBody(body), joulesOf(blowOf(body)), 0xffffffu, chance, even), 2u);
+    if (patternOf(body) == PATTERN_RADIAL && placementOf(body, planeOf(body).is_flat) == SITES_RADIAL) {
+        Rays rays = raysOf(body, blowOf(body));
+        paid = rays.spokes * rays.rings;
+    }
     paid_of[k] = float(paid);
     sites_of[k] = min(paid, most_fragments);
 }
@@ -147,41 +210,6 @@ float contactRadiusOf(uint body, uint other, BlowRecord blow) {
     return hertzRadiusOf(Blow(blow.blow.x, blow.blow.y, float(RIGID_IMPEDANCE)), 1.0 / curved, 1.0 / (1.0 / own + 1.0 / other_modulus));
 }
 
-// Edges of the box that weighs as it does, along its own axes; of what has no mass those of its surface's bounds.
-vec3 edgesOf(uint body) {
-    BreakableBody b = breakable[body];
-    if (bodies[body].offset.w == 0.0) return b.high.xyz - b.low.xyz;
-    vec3 moments = vec3(1.0 / shapes[body].inverse_inertia[0].x, 1.0 / shapes[body].inverse_inertia[1].y, 1.0 / shapes[body].inverse_inertia[2].z);
-    vec3 squares = 0.5 * (moments.x + moments.y + moments.z) - moments;
-    return sqrt(max(12.0 * bodies[body].offset.w * squares, 0.0));
-}
-
-// A plane that all of a flat body lies near, in the frame of its vertices.
-struct Plane {
-    bool is_flat;
-    float depth; // all of it lies within, on either side
-    vec3 across;
-    vec3 along;
-};
-
-const float kFlat = 3.0; // times as wide as thick, both ways
-
-Plane planeOf(uint body) {
-    vec3 edges = edgesOf(body);
-    uint thin = edges.x <= edges.y && edges.x <= edges.z ? 0u : edges.y <= edges.z ? 1u : 2u, next = (thin + 1u) % 3u, last = (thin + 2u) % 3u;
-    vec4 turn = bodies[body].offset.w == 0.0 ? vec4(0.0, 0.0, 0.0, 1.0) : turnBack(breakable[body].turn);
-    vec3 across = vec3(0.0), along = vec3(0.0);
-    across[next] = 1.0;
-    along[last] = 1.0;
-    return Plane(kFlat * edges[thin] < min(edges[next], edges[last]), edges[thin], turned(turn, across), turned(turn, along));
-}
-
-int placementOf(uint body, bool is_flat) {
-    bool even = patternOf(body) == PATTERN_UNIFORM, thin = isThin(formOfBody(body));
-    if (thin && is_flat) return even ? SITES_FLAT_EVEN : patternOf(body) == PATTERN_RADIAL ? SITES_RADIAL : SITES_FLAT;
-    return even ? SITES_EVEN : thin ? SITES_SHELL : SITES_SOLID;
-}
-
 const float kAxisUnit = 16384.0;
 
 void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord blow) {
@@ -202,6 +230,11 @@ void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord b
     breaking[k].impact = ivec4(at, int(clamp(meters * grid, 1.0, furthest)));
     breaking[k].low = ivec4(low, int(furthest));
     breaking[k].high = ivec4(high, int(seedOf(body)));
+    if (placement == SITES_RADIAL) {
+        Rays rays = raysOf(body, blow);
+        breaking[k].sites.zw = uvec2(rays.spokes, uint(rays.ratio * 65536.0));
+        breaking[k].impact.w = int(clamp(formOfBody(body).side / kInnermost * grid, 1.0, furthest));
+    }
     breaking[k].across = ivec4(roundEven(plane.across * kAxisUnit), placement);
     breaking[k].along = ivec4(roundEven(plane.along * kAxisUnit), int(min(plane.depth * grid, furthest)) + 1);
 }

@@ -20,6 +20,8 @@ uint seed_low, seed_high;
 #include "lib/draw.glsl"
 #include "lib/draw_impact.glsl"
 #include "lib/draw_plate.glsl"
+#include "lib/sine_hash.glsl"
+#include "lib/draw_radial.glsl"
 #include "lib/winding.glsl"
 
 const uint kTurnBudget = 56000u; // of the 65,535 that Mesa's software device allows
@@ -75,6 +77,7 @@ bool drawFor(uint site, uint attempt, BreakingRecord object, out ivec3 p) {
     int placement = object.across.w;
     bool even = isEven(site, attempt, placement), found = true;
     if (placement == SITES_FLAT || placement == SITES_FLAT_EVEN) found = drawOnPlate(site, attempt, object, even, p);
+    else if (placement == SITES_RADIAL) found = drawRadial(site, attempt, object, p);
     else if (even) p = drawEvenly(site, attempt, object);
     else if (placement == SITES_SHELL) found = drawInShell(site, attempt, object, p);
     else found = drawAbout(site, attempt, object.impact, uint(object.low.w), p);

@@ -129,7 +129,9 @@ void main() {
     BodyState body = bodies[parent];
     BreakableBody whole = breakable[parent];
     float unit = inversePower(breaking[object].center.w);
-    Weighed w = weighed(f, 1.0 / (body.offset.w * whole.form.x), unit);
+    // What did not move weighed nothing: its fragments do, as their material does.
+    float density = body.offset.w > 0.0 ? 1.0 / (body.offset.w * whole.form.x) : cards[whole.surface.w].elastic.x;
+    Weighed w = weighed(f, density, unit);
     bodies[slot] = stateOf(w, body, whole, breaking[object].center.xyz);
     setInertia(slot, w, shapes[parent]);
     setBreakable(slot, f, w, parent, unit);

@@ -217,12 +217,17 @@ private:
     }
     // The same of a body that may break, of so many cubic meters.
     template <class MakeSurface>
-    Result<void> add(const BodyDescription& d, const BodyDefinition& body, double volume, MakeSurface&& surface) {
+    Result<void> add(const BodyDescription& d, BodyDefinition body, double volume, MakeSurface&& surface) {
+        if (d.fixed) {
+            body.mass = 0;
+            body.inertia = {};
+        }
         if (auto added = add(body, surface); !added || !breaks_ || d.material.empty()) return added;
         const auto material = materialOf(d.material, scene_.materials);
         if (!material) return material.error();
         const auto index = static_cast<uint32_t>(contents_.bodies.size() - 1);
-        return makeBreakable(contents_, {index, surface(), body, *material, volume, kStrengthSeed});
+        return makeBreakable(
+            contents_, {index, surface(), body, *material, volume, kStrengthSeed, static_cast<uint32_t>(d.break_pattern)});
     }
 
     const SceneDescription& scene_;

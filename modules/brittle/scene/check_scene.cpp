@@ -110,6 +110,8 @@ Problem checkOneBody(BodyDescription& body, size_t index, std::span<const Materi
     if (auto problem = checkValues(place, &body)) return problem;
     if (auto problem = checkShapeKeys(place, &body)) return problem;
     if (body.density && body.mass) return problemAt(place, "mass", "has a 'density' and a 'mass'; give one of them");
+    if (body.fixed && (length(body.velocity) > 0 || length(body.spin) > 0))
+        return problemAt(place, "fixed", "is 'fixed' and has a 'velocity' or a 'spin'; leave out either");
     if (auto problem = checkSource(place, body.shape)) return problem;
     if (auto problem = checkCells(place, body.shape)) return problem;
     const auto density = densityOf(body, materials);

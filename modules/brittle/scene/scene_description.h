@@ -54,6 +54,9 @@ struct SurfaceDescription {
     bool operator==(const SurfaceDescription&) const = default;
 };
 
+// How the fragments of a body lie: about the blow; evenly; in a plate in sectors and rings about the blow.
+enum class BreakPattern : uint8_t { Impact, Uniform, Radial };
+
 struct BodyDescription {
     std::string name;
     ShapeDescription shape;
@@ -65,6 +68,8 @@ struct BodyDescription {
     std::optional<double> mass;
     SurfaceDescription surface;
     std::string material;
+    BreakPattern break_pattern = BreakPattern::Impact;
+    bool fixed = false; // does not move, until it breaks
     bool operator==(const BodyDescription&) const = default;
 };
 constexpr double kUsualDensity = 1000; // kg/m3
