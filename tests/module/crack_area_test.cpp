@@ -178,7 +178,7 @@ TEST(CrackArea, IsLessWhereTheBudgetOfABodyEndsAndTheHostIsTold) {
     const auto events = breaksOf(hits(pane, 1, 200), budget);
     ASSERT_EQ(events.size(), 1u);
     EXPECT_LE(events[0].made.x, 50u);
-    EXPECT_NEAR(events[0].sector.w, 200, 20);
+    EXPECT_NEAR(events[0].along.w, 200, 20);
     EXPECT_LT(events[0].energies.w * 7.7f, 0.6f * events[0].blow.z);
 }
 
