@@ -265,4 +265,39 @@ TEST(BreakingWorld, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
     EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-6 * mass);
 }
 
+// Glass that breaks when it lands, and balls of something else that land on another part of the floor, one after the other.
+SceneDescription landing() {
+    std::vector<BodyDescription> bodies = {ball({0, 2, 0}, "glass")};
+    for (int k = 1; k <= 12; ++k)
+        bodies.push_back(ball({2.0 * k, 1.9 + 0.02 * k, 0}, ""));
+    return sceneOf(std::move(bodies));
+}
+
+TEST(BreakingWorld, AStepThatThereIsNoRoomForBreaksNothing) {
+    const auto ample = worldOf(landing());
+    std::vector<uint32_t> contacts; // of each step until it breaks
+    while (ample->counts()->broken == 0 && contacts.size() < 60) {
+        step(*ample);
+        contacts.push_back(ample->counts()->contacts);
+    }
+    const auto steps = static_cast<uint32_t>(contacts.size()) - 1;
+    ASSERT_GT(contacts[steps], contacts[steps - 1]) << "something else has to land in that step";
+    const auto small = worldOf(landing(), {.contacts = contacts[steps] - 1});
+    step(*small, steps);
+    const auto before = small->hash();
+    const auto lacking = small->step();
+    ASSERT_FALSE(lacking);
+    EXPECT_EQ(lacking.error().code, engine::ErrorCode::Capacity);
+    EXPECT_EQ(*small->hash(), *before);
+    EXPECT_TRUE(small->breaks()->events.empty());
+    const auto state = small->save();
+    const auto other = worldOf(landing());
+    ASSERT_TRUE(other->restore(*state));
+    step(*other);
+    EXPECT_EQ(*other->hash(), *ample->hash());
+    step(*other, 30);
+    step(*ample, 30);
+    EXPECT_EQ(*other->hash(), *ample->hash());
+}
+
 } // namespace

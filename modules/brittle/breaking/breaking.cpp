@@ -57,6 +57,12 @@ public:
                      {world, s.now.contacts, p_.blows, p_.hardest, p_.chosen});
         s.record.run("hold_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
                      {world, s.now.contacts, s.b.bodies, p_.blows, p_.chosen, s.b.step.touches, s.b.step.shares});
+        s.record.commands().endLabel();
+    }
+
+    void recordAdmission(const Step& s) override {
+        const auto& world = s.record.counts();
+        s.record.commands().beginLabel("admission");
         const uint32_t admit[] = {room_.step_bodies, room_.step_triangles, room_.step_sites, room_.most_fragments,
                                   static_cast<uint32_t>(s.settings.breaking_seed)};
         s.record.runGroups("admit_breaking", 1, admit,

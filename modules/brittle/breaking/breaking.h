@@ -23,6 +23,9 @@ public:
     virtual ~Breaking() = default;
 
     virtual void recordBlows(const Step& step) = 0;
+    // Who breaks, once nothing can fail any more that the step needs: a step that is not made breaks nothing. Bodies stand as
+    // they did when it began.
+    virtual void recordAdmission(const Step& step) = 0;
     virtual engine::Result<void> recordEvent(const Step& step) = 0;
 
     // Since `heard`, which is brought up to now.

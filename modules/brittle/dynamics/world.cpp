@@ -225,6 +225,7 @@ private:
         recordIslands(step);
         if (breaking_) breaking_->recordBlows(step);
         recordColors(step);
+        if (breaking_) breaking_->recordAdmission(step);
         recordSolve(step);
         recordEnd(step);
         if (breaking_) return breaking_->recordEvent(step);
