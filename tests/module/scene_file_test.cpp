@@ -126,7 +126,8 @@ TEST(SmallSceneFile, RefusesUnknownKeysWithTheNearestOne) {
     EXPECT_EQ(refusalOf("[stepp]\ndt = 0.1\n" + kBody), "scene.toml:1: unknown key 'stepp', did you mean 'step'?");
     EXPECT_EQ(refusalOf("[step]\nsubstep = 2\n" + kBody), "scene.toml:2: unknown key 'substep', did you mean 'substeps'?");
     EXPECT_EQ(refusalOf("[budgets]\nxyzzy = 2\n" + kBody),
-              "scene.toml:2: unknown key 'xyzzy'; [budgets] has bodies, pieces, pairs, contacts");
+              "scene.toml:2: unknown key 'xyzzy'; [budgets] has bodies, pieces, pairs, contacts, fragments, "
+              "fragment_faces, fragment_triangles, most_fragments, breaking_bodies, breaking_sites, breaking_triangles, dust");
 }
 
 TEST(SmallSceneFile, RefusesUnknownNamesWithTheNearestOne) {
