@@ -6,6 +6,7 @@
 #include "lib/quaternion.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
+#include "shared/material.h"
 #include "shared/solver.h"
 #include "lib/sector.glsl"
 
@@ -21,6 +22,7 @@ UPDATES(7, uint, told); // how many so far
 WRITES(8, BreakEvent, ring);
 READS(9, uvec4, lacking);
 READS(10, DustShare, dust);
+READS(11, MaterialCard, cards);
 
 // The first count of the event that was more than there is room for, and how much.
 uvec2 firstNeeded() {
@@ -32,7 +34,11 @@ uvec2 firstNeeded() {
 // What no step has room for stands behind all that were tried.
 uint whyWhole(uint k) { return k < counts[COUNT_BREAKING] ? ledger[k].outcome.x : uint(WHOLE_TOO_LARGE); }
 
-float densityOf(uint body) { return 1.0 / (bodies[body].offset.w * breakable[body].form.x); }
+// What does not move weighs as its material does.
+float densityOf(uint body) {
+    float inverse_mass = bodies[body].offset.w;
+    return inverse_mass > 0.0 ? 1.0 / (inverse_mass * breakable[body].form.x) : cards[breakable[body].surface.w].elastic.x;
+}
 
 BreakEvent eventOf(uint k) {
     BrokenBody hit = broken[k];

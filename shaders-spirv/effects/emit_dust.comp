@@ -30,6 +30,7 @@ READS(11, uint, steps);
 READS(12, uint, offsets);
 UPDATES(13, uint, state);
 UPDATES(14, DustParticle, ring);
+READS(15, MaterialCard, cards);
 layout(push_constant) uniform Push {
     float least_volume;
     uint capacity;
@@ -102,7 +103,10 @@ void main() {
     uint object = objectOfFragment(f), parent = broken[object].ids.x;
     float scale = breaking[object].center.w, unit = inversePower(scale), volume = max(fragments[f].measure.x, 0.0);
     uint parts = particlesOfCell(volume, scale, least_volume), hash = mixed(mixed(mixed(seed + parent) ^ steps[STEPS_MADE]) + f);
-    float cubic = volume * unit * unit * unit, mass = cubic / (bodies[parent].offset.w * breakable[parent].form.x);
+    float cubic = volume * unit * unit * unit, inverse_mass = bodies[parent].offset.w;
+    // What did not move weighed nothing: its dust does, as its material does.
+    float density = inverse_mass > 0.0 ? 1.0 / (inverse_mass * breakable[parent].form.x) : cards[breakable[parent].surface.w].elastic.x;
+    float mass = density * cubic;
     float share = wholeGrains(mass / float(parts)), rest = wholeGrains(mass - float(parts - 1u) * share);
     float radius = pow(0.2387324 * cubic / float(parts), 1.0 / 3.0); // 3 / (4 pi)
     vec3 center = fragments[f].balance.xyz;

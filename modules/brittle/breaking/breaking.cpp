@@ -167,11 +167,12 @@ private:
     void recordTelling(const Step& s) {
         s.record.runGroups("tell_breaks", 1, engine::NoPush{},
                            {event_.b.counts, p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told,
-                            l_.ring, p_.lacking, p_.dust_shares});
+                            l_.ring, p_.lacking, p_.dust_shares, l_.cards});
     }
 
     BreakableWorld worldOf(const Step& s) const {
-        return {s.b.bodies, s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable, l_.surface_vertices, l_.cards, s.b.steps, s.b.births};
+        return {s.b.bodies,          s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable,
+                l_.surface_vertices, l_.cards,   s.b.steps,  s.b.births};
     }
 
     void recordSwap(Recorder& record, const Step& s) {

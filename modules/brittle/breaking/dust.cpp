@@ -119,7 +119,7 @@ void DustRing::recordEmission(const Step& s, const Event& e) const {
     s.record.runGroups("emit_dust", e.lanes, emit,
                        {e.counts, e.order, parts.fragments, parts.sites, parts.colliders.records, parts.colliders.faces,
                         parts.breaking, parts.broken, parts.rooms, e.world.bodies, e.world.breakable, e.world.steps, offsets_,
-                        state_, ring_});
+                        state_, ring_, e.world.cards});
     s.record.commands().endLabel();
 }
 
