@@ -28,7 +28,7 @@ WRITES(10, uint, adopted); // by object
 UPDATES(11, BodyState, bodies);
 UPDATES(12, BodyShape, shapes);
 UPDATES(13, BreakableBody, breakable);
-WRITES(14, Birth, births);
+UPDATES(14, Birth, births);
 layout(push_constant) uniform Push {
     uint seed_low;
     uint seed_high;
@@ -115,7 +115,8 @@ void setBirth(uint slot, uint f, uint object, float unit) {
     vec3 site = vec3(inTile(sites[fragments[f].fate.z].xyz) - ivec3(1 << 23)) / kHalfEdge * unit + breaking[object].center.xyz;
     births[slot].site = vec4(turned(bodies[parent].turn, turned(whole.turn, site - whole.balance.xyz)), 0.0);
     births[slot].turn = bodies[slot].turn;
-    births[slot].of = uvec4(parent, steps[STEPS_MADE], 0u, 0u);
+    uint generation = (whole.balance.w > 0.0 ? births[parent].of.z : 0u) + 1u;
+    births[slot].of = uvec4(parent, steps[STEPS_MADE], generation, 0u);
 }
 
 void main() {

@@ -52,7 +52,8 @@ struct BreakableBody {
 struct Birth {
     vec4 site; // of its cell, world axes, from the center of mass of what broke
     vec4 turn; // that its body had then
-    uvec4 of;  // the slot of the body that broke, the step that it broke in, counted from 1; 0 for what is no fragment
+    uvec4 of;  // the slot of the body that broke, the step that it broke in, counted from 1, 0 for what is no fragment; how many
+               // bodies have broken on the way to it
 };
 
 // A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so

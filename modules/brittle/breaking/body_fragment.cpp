@@ -42,17 +42,19 @@ SurfaceMesh surfaceOf(const gpu::BreakableBody& body, std::span<const FragmentVe
 
 } // namespace
 
-Result<std::vector<BodyFragment>> FragmentList::read(engine::Device& device, BufferView breakable, uint32_t slots,
-                                                     uint32_t changes) {
+Result<std::vector<BodyFragment>> FragmentList::read(engine::Device& device, BufferView breakable, BufferView births,
+                                                     uint32_t slots, uint32_t changes) {
     if (known_of_ == changes) return known_;
     std::vector<gpu::BreakableBody> records(slots);
-    const Fetch wanted[] = {{breakable, records.data(), records.size() * sizeof(gpu::BreakableBody)}};
+    std::vector<gpu::Birth> born(slots);
+    const Fetch wanted[] = {{breakable, records.data(), records.size() * sizeof(gpu::BreakableBody)},
+                            {births, born.data(), born.size() * sizeof(gpu::Birth)}};
     if (auto read = fetch(device, wanted); !read) return read.error();
     known_.clear();
     for (uint32_t slot = 0; slot < slots; ++slot)
         if (holdsFragment(records[slot]))
             known_.push_back({slot, static_cast<uint32_t>(records[slot].balance.w), static_cast<uint32_t>(records[slot].low.w),
-                              records[slot]});
+                              born[slot].of.x, born[slot].of.z, records[slot]});
     known_of_ = changes;
     return known_;
 }

@@ -14,6 +14,8 @@ struct BodyFragment {
     uint32_t slot = 0;   // of a body
     uint32_t step = 0;   // that it was made in, counted from 1: another fragment in the same slot has another
     uint32_t origin = 0; // the slot of the first body that it was a part of, however often that has broken since
+    uint32_t parent = 0;     // the slot of the body that broke into it; somebody else may have the slot by now
+    uint32_t generation = 1; // 1: of a body that was whole from the beginning
     gpu::BreakableBody record{};
     float fade = 1; // how much is left of one that goes, down to 0: for whoever draws it
 };
@@ -21,10 +23,10 @@ struct BodyFragment {
 // Which fragments there are, read anew only where something has broken or gone since.
 class FragmentList {
 public:
-    // Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, by slot; `changes`: how many bodies
-    // have broken and fragments gone so far.
-    engine::Result<std::vector<BodyFragment>> read(engine::Device& device, engine::BufferView breakable, uint32_t slots,
-                                                   uint32_t changes);
+    // Of the first so many slots, those that hold a fragment. `breakable`: BreakableBody, `births`: Birth, by slot; `changes`:
+    // how many bodies have broken and fragments gone so far.
+    engine::Result<std::vector<BodyFragment>> read(engine::Device& device, engine::BufferView breakable,
+                                                   engine::BufferView births, uint32_t slots, uint32_t changes);
     void forget() { known_of_.reset(); }
 
 private:

@@ -87,7 +87,7 @@ public:
     Result<std::vector<BodyFragment>> fragments() override {
         if (auto settled = settle(); !settled) return settled.error();
         if (!breaking_) return std::vector<BodyFragment>();
-        auto read = fragments_.read(device_, breaking_->breakable(), slots_, broken_ + expired_);
+        auto read = fragments_.read(device_, breaking_->breakable(), b_.births, slots_, broken_ + expired_);
         if (!read) return read;
         const auto fades = breaking_->fades(slots_);
         if (!fades) return fades.error();
@@ -95,6 +95,7 @@ public:
             fragment.fade = (*fades)[fragment.slot];
             fragment.slot = bodyAsAdded(fragment.slot);
             fragment.origin = bodyAsAdded(fragment.origin);
+            fragment.parent = bodyAsAdded(fragment.parent);
         }
         return read;
     }
