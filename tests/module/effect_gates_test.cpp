@@ -90,7 +90,7 @@ TEST(EffectGates, WhatIsOnHasItsBuffers) {
     for (const Effect effect : {Effect::Contacts, Effect::Ccd, Effect::Sleeping})
         EXPECT_GT(plan.bytesOf(effect), 0u) << brittle::nameOf(effect);
     for (const PlannedBuffer& buffer : plan.buffers)
-        EXPECT_GT(buffer.bytes, 0u) << buffer.name;
+        EXPECT_EQ(buffer.bytes > 0, !buffer.asked_by || plan.effects.has(*buffer.asked_by)) << buffer.name;
 }
 
 TEST(EffectGates, BytesAddUpToWhatTheWorldHasTakenFromThePool) {

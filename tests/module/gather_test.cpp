@@ -220,8 +220,9 @@ TEST(SmallGather, PlacesSitesInsideTheirObjects) {
     EXPECT_EQ(device.gather(breaking.records, breaking.set).sites, out.sites);
 }
 
-// A density that is even up to r0 and falls as r^-4 beyond, in a ball of radius R r0 that is hit: of a sphere of radius r about
-// the blow a share of (1 - r / (2 R)) / 2 lies in it.
+// Of a solid every other site has a density that is even up to r0 and falls as r^-4 beyond, in a ball of radius R r0 that is
+// hit: of a sphere of radius r about the blow a share of (1 - r / (2 R)) / 2 lies in it. The others lie evenly: of the ball a
+// share of (r / R)^3 (1 / 2 - 3 r / (16 R)) is nearer to the blow than r.
 TEST(Gather, SitesCrowdAboutTheBlow) {
     Breaking breaking = scaledFragments("builtin:icosphere", 1);
     constexpr uint32_t kSites = 4000;
@@ -238,9 +239,10 @@ TEST(Gather, SitesCrowdAboutTheBlow) {
     const double ball = 0.5 * 0x1p23 / kRadius;
     const double in_core = 1.0 / 3 - 1 / (8 * ball), in_near = 0.5 - std::log(2.0) / (2 * ball),
                  in_far = 0.5 - 1 / (2 * ball) - std::log(ball) / (2 * ball), all = in_core + in_near + in_far;
-    EXPECT_NEAR(core, in_core / all, 0.03);
-    EXPECT_NEAR(near, in_near / all, 0.03);
-    EXPECT_NEAR(far, in_far / all, 0.03);
+    const auto evenWithin = [&](double r) { return std::pow(r / ball, 3) * (0.5 - 3 * r / (16 * ball)); };
+    EXPECT_NEAR(core, (in_core / all + evenWithin(1)) / 2, 0.03);
+    EXPECT_NEAR(near, (in_near / all + evenWithin(2) - evenWithin(1)) / 2, 0.03);
+    EXPECT_NEAR(far, (in_far / all + 1 - evenWithin(2)) / 2, 0.03);
 }
 
 TEST(SmallGather, OfNothingIsNothing) {
