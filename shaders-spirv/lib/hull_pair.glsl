@@ -23,7 +23,9 @@ struct HullPair {
 const float kRounding = 2e-6; // of lengths, after a few products and sums
 // A margin as large as a chip would hold it off the ground.
 const float kMarginShare = 0.1;
-// Of the other hull's size and depth: so far a plane must lead that no axis aside of its own looks like a way out.
+// Of the other hull's size and depth. To hold it however it turns, 2 would do; the wider, the less rounding tilts what lies on it (a
+// house of cards creeps by 25 um at 4, 12 at 64, less than 10 here). Beyond 335 far corners round, by 2^-24 of their distance, by
+// more than what counts as a tie (kTie): the face that is the lowest would no longer be told from others.
 const float kPlaneShare = 256.0;
 
 void loadPlaces(inout HullPair pair, float duration, vec3 gravity) {
