@@ -15,7 +15,6 @@
 #include "shaders-spirv/shared/narrow_phase.h"
 #include "shaders-spirv/shared/pool.h"
 #include "shaders-spirv/shared/scene.h"
-#include "shaders-spirv/shared/solver.h"
 #include "tests/engine/test_device.h"
 
 #include <cstddef>
@@ -123,9 +122,6 @@ const std::vector<Row>& rows() {
         {"AxisRecord",
          sizeof(gpu::AxisRecord),
          {MEMBER(AxisRecord, axis), MEMBER(AxisRecord, shift), MEMBER(AxisRecord, info)}},
-        {"StopImpulse",
-         sizeof(gpu::StopImpulse),
-         {MEMBER(StopImpulse, impulse), MEMBER(StopImpulse, twist), MEMBER(StopImpulse, back)}},
         {"DrawPush",
          sizeof(gpu::DrawPush),
          {MEMBER(DrawPush, view_projection), MEMBER(DrawPush, eye), MEMBER(DrawPush, key_direction),

@@ -2,8 +2,8 @@
 //
 // Contacts are found along the straight way that a body has before it when the step begins. What a blow then makes of it, another
 // way or a turn, is known only once the step is solved, and may lead through a wall. So bodies that are fast for their size stop
-// where they leave that way by more than their thickness (here) or go into what they touch (hold_back), and the rest of the time is
-// lost to them: their velocities stay, less what gravity gave them in that time.
+// where they leave that way by more than their thickness (here) or go into what they touch (hold_back); their velocities stay,
+// and the rest of the time is lost to them.
 #include "lib/quaternion.glsl"
 #include "shared/solver.h"
 
@@ -30,7 +30,4 @@ vec4 shareOfTurn(vec4 turned_, float share) {
     return normalize(mix(vec4(0.0, 0.0, 0.0, 1.0), shorter, share));
 }
 
-// Of half a body's thickness: less of a way in a step leads through nothing.
-const float kSwift = 0.5;
-
-bool isSwift(float way, float turn, BodyShape shape, float most) { return way + turn * reachOf(shape) > most * thicknessOf(shape); }
+bool isSwift(float way, float turn, BodyShape shape) { return way + turn * reachOf(shape) > 0.5 * thicknessOf(shape); }

@@ -12,7 +12,6 @@ GPU_NAMESPACE_BEGIN
 // Flags.
 #define BODY_ASLEEP 1 /* it was not solved in the last step */
 #define BODY_ABSENT 2 /* nothing is in this slot */
-#define BODY_HELD 4   /* something that it touches held it back in the last step */
 
 struct BodyState {
     ivec4 sector;  // w: BODY_* flags

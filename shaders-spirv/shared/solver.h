@@ -103,13 +103,6 @@ struct SolverContact {
     SolverPoint points[MANIFOLD_POINTS];
 };
 
-// What slows a body that hangs in another one (hold_back), on it; the other one has it the other way round.
-struct StopImpulse {
-    vec4 impulse; // at its center of mass; w: 1 where it is the contact's B
-    vec4 twist;   // about it
-    vec4 back;    // what the other one's center of mass is twisted by
-};
-
 // A contact from step to step, one for every pair of the broad phase.
 struct ContactMemory {
     uvec4 ids;     // body a, body b, points, color
@@ -137,7 +130,7 @@ struct SolverPush {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 384 && sizeof(gpu::StopImpulse) == 48);
+static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 384);
 static_assert(sizeof(gpu::ContactMemory) == 368 && sizeof(gpu::SolverPush) == 64);
 #endif
 #endif

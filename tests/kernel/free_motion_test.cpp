@@ -27,12 +27,11 @@ struct Buffers {
         : states(bufferOf(statesOf(bodies))), shapes(bufferOf(shapesOf(bodies))),
           solver_bodies(blankBuffer<gpu::SolverBody>(bodies.size())), spins(blankBuffer<gpu::vec4>(bodies.size())),
           none(bufferOf(std::vector<uint32_t>(bodies.size() + 1))), contacts(blankBuffer<gpu::SolverContact>(1)),
-          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(2 * bodies.size())),
-          stops(blankBuffer<gpu::StopImpulse>(1)) {
+          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(bodies.size())) {
         counts[COUNT_BODIES] = static_cast<uint32_t>(bodies.size());
     }
     Counts counts;
-    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares, stops;
+    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares;
 };
 
 void begin(Buffers& b, const gpu::vec4& falling) {
@@ -52,9 +51,8 @@ void substep(Buffers& b, const gpu::SolverPush& push) {
 
 void end(Buffers& b, const gpu::vec4& falling) {
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(
-            kernel("end_step"), b.counts[COUNT_BODIES], falling,
-            {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.steps, b.shares, b.none, b.none, b.stops});
+        commands.dispatch(kernel("end_step"), b.counts[COUNT_BODIES], falling,
+                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.steps, b.shares});
     });
 }
 

@@ -207,10 +207,8 @@ TEST(EffectGates, WithoutCcdNobodyIsFastAndNobodyIsHeldBack) {
     const FrozenShader on = frozen("begin_step", allOn()), off = frozen("begin_step", without(Effect::Ccd));
     EXPECT_TRUE(on.stores("shares") && on.stores("counts"));
     EXPECT_FALSE(off.stores("shares") || off.stores("counts"));
-    for (const char* binding : {"shares", "stops", "adjacency"}) {
-        EXPECT_TRUE(frozen("end_step", allOn()).loads(binding)) << binding;
-        EXPECT_FALSE(frozen("end_step", without(Effect::Ccd)).loads(binding)) << binding;
-    }
+    EXPECT_TRUE(frozen("end_step", allOn()).loads("shares"));
+    EXPECT_FALSE(frozen("end_step", without(Effect::Ccd)).loads("shares"));
 }
 
 TEST(EffectGates, WithoutDragItsCodeIsGone) {

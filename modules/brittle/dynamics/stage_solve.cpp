@@ -117,8 +117,7 @@ void recordHolding(const Step& s) {
     const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(s.settings.margin)};
     s.record.run("hold_back", Length::counted(COUNT_SWIFT), push,
                  {s.record.counts(), b.contact_pairs, s.now.pairs, s.now.contacts, s.b.pieces, s.b.hull_records,
-                  s.b.hull_vertices, s.b.bodies, s.b.shapes, b.solver_bodies, b.shares, b.contact_slots, b.adjacency_start,
-                  b.stops});
+                  s.b.hull_vertices, s.b.bodies, s.b.shapes, b.solver_bodies, b.shares});
 }
 
 } // namespace
@@ -169,9 +168,9 @@ void recordSolve(const Step& s) {
 void recordEnd(const Step& s) {
     s.record.commands().beginLabel("end");
     recordHolding(s);
-    s.record.run("end_step", kBodies, fallingOf(s),
-                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps, s.b.step.shares,
-                  s.b.step.adjacency_start, s.b.step.adjacency, s.b.step.stops});
+    s.record.run(
+        "end_step", kBodies, fallingOf(s),
+        {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.steps, s.b.step.shares});
     recordRest(s);
     s.record.commands().endLabel();
 }
