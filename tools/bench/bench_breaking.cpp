@@ -61,7 +61,7 @@ Result<std::unique_ptr<brittle::World>> worldOf(engine::Device& device, const Br
     budget.breaking.most_fragments = what.cells;
     budget.breaking.step_bodies = what.bodies;
     budget.breaking.step_sites = what.bodies * what.cells;
-    budget.breaking.fragments = 2 * what.bodies * what.cells;
+    budget.breaking.fragments = what.bodies * what.cells + what.bodies * what.cells / 4;
     return brittle::World::create(device, *contents, *settings, budget);
 }
 

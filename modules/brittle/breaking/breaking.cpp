@@ -8,6 +8,7 @@
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/upload.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -35,7 +36,8 @@ public:
         const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments};
         event_ = planBreaking(device_, group_size, event, kDirections);
         sizes_ = {pairs, static_cast<uint32_t>(contents.bodies.size()), event_.capacity.fragments};
-        room_.pools.requests = event_.capacity.fragments;
+        // More fragments than that, and objects stay whole for want of room.
+        room_.pools.requests = std::min<uint32_t>(event_.capacity.fragments, POOL_MOST_REQUESTS);
         if (auto made = makeBuffers(contents); !made) return made;
         if (auto made = makeSmall(contents); !made) return made;
         return fill(contents);
