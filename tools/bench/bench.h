@@ -34,8 +34,8 @@ struct BenchOptions {
     std::vector<uint32_t> box_counts = {1'000, 10'000, 100'000};      // of the broad phase
     std::vector<uint32_t> pair_counts = {10'000};                     // of hulls, of the narrow phase
     // The first one with every set of effects, too.
-    std::vector<BreakingCase> breaking_cases = {{10, 64, 0}, {1, 64, 0},   {3, 64, 0},    {30, 64, 0},
-                                                {10, 16, 0}, {10, 256, 0}, {10, 64, 100}, {10, 64, 1000}};
+    std::vector<BreakingCase> breaking_cases = {{10, 64, 0}, {1, 64, 0},   {3, 64, 0},    {20, 64, 0},
+                                                {10, 16, 0}, {10, 128, 0}, {10, 64, 100}, {10, 64, 1000}};
     uint32_t startup_rounds = 3;
     uint32_t peer_shatter_limit = 100; // CGAL runs up to here
     uint32_t rounds = 5;

@@ -202,6 +202,8 @@ private:
         auto scene = SceneBuffers::create(device_, event_.capacity.emitted, event_.capacity.fragments);
         if (!scene) return scene.error();
         scene_ = std::move(*scene);
+        if (const uint64_t vertices = scene_->views().vertices.size; vertices > device_.limits().maxStorageBufferRange)
+            return tooLarge(vertices);
         auto colliders = ColliderBuffers::create(device_, event_.capacity);
         if (!colliders) return colliders.error();
         colliders_.emplace(std::move(*colliders));
