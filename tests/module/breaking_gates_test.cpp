@@ -2,12 +2,11 @@
 #include "modules/brittle/dynamics/scene_settings.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/breaking_scenes.h"
+#include "tests/module/effect_cost.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <numeric>
 #include <set>
 
 namespace {
@@ -158,23 +157,11 @@ TEST(BreakingGates, NothingIsReadBackWhileAWorldGoesOn) {
 
 // In a step in which nothing breaks, which is told and not judged.
 TEST(BreakingGates, TheCostOfEachEffectIsTold) {
-    struct Cost {
-        uint64_t bytes = 0;
-        double us = 0;
-    };
-    const auto costOf = [](const SceneDescription& scene) -> Cost {
-        const auto world = worldOf(scene);
-        const auto us = world->measure(15);
-        const auto plan = world->plan();
-        EXPECT_TRUE(us && plan);
-        return {plan->bytes(), std::accumulate(us->begin(), us->end(), 0.0)};
-    };
-    const Cost on = costOf(allOn());
+    const effect_cost::Cost on = effect_cost::costOf(*worldOf(allOn()), 15);
     for (const Effect effect : kSwitches) {
-        const Cost off = costOf(without(effect));
+        const effect_cost::Cost off = effect_cost::costOf(*worldOf(without(effect)), 15);
         EXPECT_LE(off.bytes, on.bytes);
-        std::printf("%-16s on: %10llu bytes, %8.1f us; off: %10llu bytes, %8.1f us\n", nameOf(effect).data(),
-                    static_cast<unsigned long long>(on.bytes), on.us, static_cast<unsigned long long>(off.bytes), off.us);
+        effect_cost::tell(effect, on, off);
     }
 }
 

@@ -2,13 +2,12 @@
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "tests/engine/test_device.h"
+#include "tests/module/effect_cost.h"
 #include "tests/support/frozen_shader.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <numeric>
 #include <set>
 
 namespace {
@@ -254,23 +253,11 @@ TEST(EffectGates, MakingAPlanAndMeasuringLeaveTheWorldAsItIs) {
 
 // What each effect costs in a pile of 60, which is told and not judged.
 TEST(EffectGates, TheCostOfEachEffectIsTold) {
-    struct Cost {
-        uint64_t bytes = 0;
-        double us = 0;
-    };
-    const auto costOf = [](const StepSettings& settings) -> Cost {
-        const auto world = worldOf(settings, 60);
-        const auto us = world->measure(30);
-        const auto plan = world->plan();
-        EXPECT_TRUE(us && plan);
-        return {plan->bytes(), std::accumulate(us->begin(), us->end(), 0.0)};
-    };
-    const Cost on = costOf(allOn());
+    const effect_cost::Cost on = effect_cost::costOf(*worldOf(allOn(), 60), 30);
     for (const Effect effect : kSwitches) {
-        const Cost off = costOf(without(effect));
+        const effect_cost::Cost off = effect_cost::costOf(*worldOf(without(effect), 60), 30);
         EXPECT_LE(off.bytes, on.bytes);
-        std::printf("%-12s on: %8llu bytes, %8.1f us; off: %8llu bytes, %8.1f us\n", brittle::nameOf(effect).data(),
-                    static_cast<unsigned long long>(on.bytes), on.us, static_cast<unsigned long long>(off.bytes), off.us);
+        effect_cost::tell(effect, on, off);
     }
 }
 

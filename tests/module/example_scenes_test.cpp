@@ -176,10 +176,7 @@ TEST(LongExampleScenes, KeepTheirPromisesToTheEnd) {
         const auto scene = example(examplesFolder() / (promise.scene + ".toml"));
         const Story story = watch(scene, scene.step.steps);
         expectKept(promise, story);
-        if (promise.scene == "window_pane")
-            EXPECT_LE(story.since, 2 * story.before) << "speed of the fastest splinter";
-        else
-            EXPECT_LE(story.since, 2 * story.before);
+        EXPECT_LE(story.since, 2 * story.before) << "speed of the fastest splinter";
     }
 }
 

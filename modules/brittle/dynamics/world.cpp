@@ -129,6 +129,7 @@ public:
     }
 
     Result<Dust> dust() override {
+        if (auto settled = settle(); !settled) return settled.error();
         if (!breaking_) return Dust();
         auto dust = breaking_->dust();
         if (!dust) return dust;
@@ -150,7 +151,6 @@ public:
     }
 
     Result<std::vector<std::array<uint32_t, 2>>> pairs() override {
-        if (auto settled = settle(); !settled) return settled.error();
         auto counted = counts();
         if (!counted) return counted.error();
         std::vector<std::array<uint32_t, 2>> pairs(counted->pairs);
