@@ -352,7 +352,8 @@ World adopt(const Scene& scene, const How& how) {
     std::vector<engine::BufferView> v;
     std::apply([&](auto&... pool) { (v.push_back(b.of(pool)), ...); }, poolsOf(world));
     const brittle::BrokenParts parts = partsOf(b, left);
-    const brittle::BreakableWorld to = {v[0], v[1], v[2], {v[3], v[4], v[5], v[6], v[7]}, v[8], v[9], b.of(cards), b.of(steps), b.of(births)};
+    const brittle::BreakableWorld to = {v[0],        v[1],        v[2],        {v[3], v[4], v[5], v[6], v[7]}, v[8], v[9],
+                                        b.of(cards), b.of(steps), b.of(births)};
     const engine::BufferView counted = b.of(counts), args = b.of(no_args);
     onDevice(b.upload(), how.group_size, counted, args, [&](brittle::Recorder& recorder) {
         brittle::recordAdoption(recorder, parts, to, {kSeed, kHold}, v[11]);

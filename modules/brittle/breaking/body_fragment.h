@@ -11,9 +11,9 @@
 namespace brittle {
 
 struct BodyFragment {
-    uint32_t slot = 0;   // of a body
-    uint32_t step = 0;   // that it was made in, counted from 1: another fragment in the same slot has another
-    uint32_t origin = 0; // the slot of the first body that it was a part of, however often that has broken since
+    uint32_t slot = 0;       // of a body
+    uint32_t step = 0;       // that it was made in, counted from 1: another fragment in the same slot has another
+    uint32_t origin = 0;     // the slot of the first body that it was a part of, however often that has broken since
     uint32_t parent = 0;     // the slot of the body that broke into it; somebody else may have the slot by now
     uint32_t generation = 1; // 1: of a body that was whole from the beginning
     gpu::BreakableBody record{};
