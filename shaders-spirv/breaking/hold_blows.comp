@@ -15,7 +15,7 @@ READS(2, BodyState, bodies);
 READS(3, BlowRecord, blows);
 READS(4, uint, chosen);
 UPDATES(5, uint, touches);
-UPDATES(6, uint, shares); // of its way that a body may go, as bits
+UPDATES(6, uint, shares); // two of each body, as bits: of its way that it may go, and that is left by what does not move
 
 // Whether the blow that a body takes part in is one between these two.
 bool isBetween(uint body, uvec2 ids) {
@@ -26,7 +26,7 @@ bool isBetween(uint body, uvec2 ids) {
 }
 
 void hold(uint body, float share) {
-    if (bodies[body].offset.w != 0.0) atomicMin(shares[body], floatBitsToUint(share));
+    if (bodies[body].offset.w != 0.0) atomicMin(shares[2u * body], floatBitsToUint(share));
 }
 
 void main() {

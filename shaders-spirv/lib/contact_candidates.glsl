@@ -44,10 +44,14 @@ vec3 inPlane(vec3 p) {
 
 vec3 outOfPlane(vec3 p) { return p.x * plane.u + p.y * plane.v + (p.z + heightAt(p.xy)) * plane.n; }
 
-void addCandidate(vec3 at, uint line, uint other) {
-    if (candidate_count >= CANDIDATES || at.z > pair.margin) return;
+void addAnyway(vec3 at, uint line, uint other) {
+    if (candidate_count >= CANDIDATES) return;
     candidate_at[candidate_count] = vec4(at, uintBitsToFloat(line << 7 | other));
     candidate_count++;
+}
+
+void addCandidate(vec3 at, uint line, uint other) {
+    if (at.z <= pair.margin) addAnyway(at, line, other);
 }
 
 // Outward, unit, of the side from p to q of a polygon that is counterclockwise; 0 where it has no length.
@@ -127,14 +131,14 @@ void addReferenceCorners(vec3 n) {
 }
 
 // The lowest corner of the incident face, where nothing that is left lies about as low: it may lie beside the reference face
-// where an axis between edges would have done as well.
+// where an axis between edges would have done as well, and a little above the lowest corner of the hull, of faces that all but hold it.
 void addLowest(float expected) {
     for (uint k = 0u; k < candidate_count; k++)
         if (candidate_at[k].z <= expected + slack) return;
     uint lowest = 0u;
     for (uint i = 0u; i < incident_count; i++)
         if (incident_at[i].z < incident_at[lowest].z) lowest = i;
-    addCandidate(incident_at[lowest], lowest, lowest + 1u == incident_count ? 0u : lowest + 1u);
+    addAnyway(incident_at[lowest], lowest, lowest + 1u == incident_count ? 0u : lowest + 1u);
 }
 
 #endif

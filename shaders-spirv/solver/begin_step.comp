@@ -16,7 +16,7 @@ READS(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
 WRITES(3, SolverBody, solver_bodies);
 WRITES(4, vec4, spins); // that the momentum was last brought up to
-WRITES(5, uint, shares); // of its way that it may go
+WRITES(5, uint, shares); // of its way that it may go, and that is left by what does not move
 layout(push_constant) uniform Push { vec4 gravity; }; // w: length of the step
 
 void main() {
@@ -34,7 +34,8 @@ void main() {
                                   vec4(0.0, 0.0, 0.0, 1.0));
     spins[b] = vec4(state.spin.xyz, 0.0);
     if (kCcd == 0u) return;
-    shares[b] = floatBitsToUint(1.0);
+    shares[2u * b] = floatBitsToUint(1.0);
+    shares[2u * b + 1u] = floatBitsToUint(1.0);
     bool swift = isSwift(length(wayAhead(state.velocity.xyz, gravity)), gravity.w * length(state.spin.xyz), shapes[b]);
     if (swift && state.offset.w != 0.0) counts[COUNT_SWIFT] = 1u;
 }

@@ -37,7 +37,22 @@ void stop(uint b) {
 }
 
 float shareFor(uint b, vec3 moved) {
-    return min(uintBitsToFloat(shares[b]), shareOfWay(moved, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
+    return min(uintBitsToFloat(shares[2u * b]), shareOfWay(moved, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
+}
+
+// Without what gravity gave it in the time that it has lost.
+vec3 velocityAtEnd(uint b, vec3 velocity, float lost) {
+    vec3 falling = gravity.w * gravity.xyz;
+    float gained = dot(velocity - bodies[b].velocity.xyz, falling) / max(dot(falling, falling), 1e-37);
+    return velocity - lost * clamp(gained, 0.0, 1.0) * falling;
+}
+
+// What hangs in something that does not move comes to rest there, or it would keep a speed with which it goes nowhere.
+float shareOfSpeed(uint b) {
+    bool hung = (bodies[b].sector.w & BODY_HANGS) != 0;
+    float share = uintBitsToFloat(shares[2u * b + 1u]);
+    bodies[b].sector.w = share < 1.0 ? bodies[b].sector.w | BODY_HANGS : bodies[b].sector.w & ~BODY_HANGS;
+    return hung ? share : 1.0;
 }
 
 void main() {
@@ -61,8 +76,10 @@ void main() {
         stop(b);
         return;
     }
+    float slowed = kCcd != 0u ? shareOfSpeed(b) : 1.0;
     moveTo(b, bodies[b].offset.xyz + share * s.moved.xyz);
     bodies[b].turn = turn;
-    bodies[b].velocity.xyz = s.velocity.xyz;
-    bodies[b].spin.xyz = spin;
+    bodies[b].velocity.xyz = slowed * velocityAtEnd(b, s.velocity.xyz, 1.0 - share);
+    bodies[b].spin.xyz = slowed * spin;
+    bodies[b].momentum.xyz *= slowed;
 }

@@ -1,6 +1,10 @@
 // Bodies that are fast for their size go no deeper into what they touch than a share of their thickness, however a blow has
 // turned them: of a contact's normal nothing is asked but that it separates, so all corners of both hulls count, not only the
-// points that were found before the blow. The least of all contacts is what a body may go of its way (end_step).
+// points that were found before the blow. The least of all contacts is what a body may go of its way (end_step). What does not move
+// is told apart: a body that it holds time and again hangs in it.
+//
+// Two of which one is fast are both held, for one time: else one would go on into the other. But a splinter holds up no rock, as
+// long as that moves by less than half of its thickness: what it runs over is then pushed out on the side that it came from.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -19,7 +23,7 @@ READS(6, vec4, hull_vertices);
 READS(7, BodyState, bodies);
 READS(8, BodyShape, shapes);
 READS(9, SolverBody, solver_bodies);
-UPDATES(10, uint, shares); // of each body, as bits: of floats that are not negative the order is the same
+UPDATES(10, uint, shares); // two of each body, as bits: of floats that are not negative the order is the same
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of the step
     float margin;
@@ -30,6 +34,7 @@ const uint kHalvings = 12u;
 const float kDepthShare = 0.25; // of the thinner hull along the normal
 const float kMarginShare = 0.1; // of the smaller hull
 const float kRoom = 0.1;        // of what is allowed, for bodies that begin deeper
+const float kMuchLighter = 0.01;
 
 struct Side {
     uint body;
@@ -37,16 +42,29 @@ struct Side {
     vec4 from, turned_; // at the beginning of the step, and since
     vec3 moved;
     float share;        // that its own way allows
+    bool is_swift, is_held; // for its size; by the other one
 };
 
-Side sideOf(uint body, uint piece) {
-    SolverBody s = solver_bodies[body];
-    bool moves = s.velocity.w != 0.0;
-    float share = moves ? shareOfWay(s.moved.xyz, bodies[body].velocity.xyz, gravity, thicknessOf(shapes[body])) : 1.0;
-    return Side(body, hulls[pieces[piece].ids.x], bodies[body].turn, s.turned, s.moved.xyz, share);
+bool moves(uint body) { return solver_bodies[body].velocity.w != 0.0; }
+
+bool isMuchLighter(uint body, uint than) { return kMuchLighter * solver_bodies[body].velocity.w > solver_bodies[than].velocity.w; }
+
+// What is much lighter holds only what is twice as swift.
+bool isHeldBy(uint other, uint body, float way, float turn) {
+    return !(moves(other) && isMuchLighter(other, body)) || isSwift(0.5 * way, 0.5 * turn, shapes[body]);
 }
 
-vec4 turnAt(Side side, float share) { return turnAfter(shareOfTurn(side.turned_, min(share, side.share)), side.from); }
+Side sideOf(uint body, uint piece, uint other) {
+    SolverBody s = solver_bodies[body];
+    float share = moves(body) ? shareOfWay(s.moved.xyz, bodies[body].velocity.xyz, gravity, thicknessOf(shapes[body])) : 1.0;
+    float way = share * length(s.moved.xyz), turn = 2.0 * length(s.turned.xyz);
+    return Side(body, hulls[pieces[piece].ids.x], bodies[body].turn, s.turned, s.moved.xyz, share,
+                moves(body) && isSwift(way, turn, shapes[body]), isHeldBy(other, body, way, turn));
+}
+
+float shareAt(Side side, float share) { return side.is_held ? min(share, side.share) : side.share; }
+
+vec4 turnAt(Side side, float share) { return turnAfter(shareOfTurn(side.turned_, shareAt(side, share)), side.from); }
 
 // The lowest and the highest corner along a direction, above the body's center of mass.
 vec2 heightsOf(Side side, vec4 turn, vec3 n) {
@@ -67,27 +85,21 @@ vec3 depthAt(uint pair, Side a, Side b, vec3 way, float share) {
     vec4 since = with_a ? turnAfter(turn_a, turnBack(memory[pair].turn_a)) : turnAfter(turn_b, turnBack(memory[pair].turn_b));
     vec3 n = turned(since, memory[pair].normal.xyz);
     vec2 of_a = heightsOf(a, turn_a, n), from_b = heightsOf(b, turn_b, n);
-    vec3 apart = way + min(share, b.share) * b.moved - min(share, a.share) * a.moved;
+    vec3 apart = way + shareAt(b, share) * b.moved - shareAt(a, share) * a.moved;
     return vec3(of_a.y - from_b.x - dot(n, apart), of_a.y - of_a.x, from_b.y - from_b.x);
 }
 
+// What begins deeper may go on a little, to get out of each other's way; but not ever deeper into what does not move, step by step.
 float allowedDepth(vec3 first, Side a, Side b) {
     float slight = min(margin, kMarginShare * min(a.hull.center.w, b.hull.center.w));
     float allowed = max(kDepthShare * min(first.y, first.z), slight);
-    return max(allowed, first.x + kRoom * allowed);
-}
-
-bool wantsALook(Side a, Side b) {
-    float way = length(min(1.0, b.share) * b.moved - a.share * a.moved);
-    float turn_a = 2.0 * length(a.turned_.xyz), turn_b = 2.0 * length(b.turned_.xyz);
-    bool moves_a = solver_bodies[a.body].velocity.w != 0.0, moves_b = solver_bodies[b.body].velocity.w != 0.0;
-    return (moves_a && isSwift(way, turn_a, shapes[a.body])) || (moves_b && isSwift(way, turn_b, shapes[b.body]));
+    return max(allowed, first.x + kRoom * (moves(a.body) && moves(b.body) ? allowed : clamp(2.0 * allowed - first.x, 0.0, allowed)));
 }
 
 // First as it began, then the whole step, then halves.
 float shareWithin(uint pair, Side a, Side b, vec3 way) {
     float low = 0.0, high = 1.0, allowed = 0.0;
-    bool open = wantsALook(a, b), held = false;
+    bool open = a.is_swift || b.is_swift, held = false;
     for (uint k = 0u; k < ROLLED(kHalvings + 2u) && open; k++) {
         float share = k == 0u ? 0.0 : (k == 1u ? 1.0 : 0.5 * (low + high));
         vec3 depth = depthAt(pair, a, b, way, share);
@@ -101,13 +113,19 @@ float shareWithin(uint pair, Side a, Side b, vec3 way) {
     return held ? low : 1.0;
 }
 
+void hold(Side side, float share, bool by_moving) {
+    if (!side.is_held) return;
+    atomicMin(shares[2u * side.body], floatBitsToUint(share));
+    if (!by_moving) atomicMin(shares[2u * side.body + 1u], floatBitsToUint(share));
+}
+
 void main() {
     uint at = flatIndex();
     if (at >= counts[COUNT_SWIFT]) return;
     uint pair = contact_pairs[at];
     uvec2 ids = memory[pair].ids.xy, of = pairs[pair];
-    Side a = sideOf(ids.x, of.x), b = sideOf(ids.y, of.y);
+    Side a = sideOf(ids.x, of.x, ids.y), b = sideOf(ids.y, of.y, ids.x);
     float share = shareWithin(pair, a, b, wayBetween(ids.x, ids.y));
-    atomicMin(shares[ids.x], floatBitsToUint(share));
-    atomicMin(shares[ids.y], floatBitsToUint(share));
+    hold(a, share, moves(ids.y));
+    hold(b, share, moves(ids.x));
 }

@@ -76,7 +76,7 @@ Outcome judge(const Line& line) {
                          steps = bufferOf(std::vector<uint32_t>{60, 0, 0, 0}), blows = blankBuffer<gpu::BlowRecord>(pairs),
                          hardest = bufferOf(std::vector<uint32_t>(count, 0)),
                          chosen = bufferOf(std::vector<uint32_t>(count, NO_INDEX)),
-                         shares = bufferOf(std::vector<uint32_t>(count, std::bit_cast<uint32_t>(1.0f))),
+                         shares = bufferOf(std::vector<uint32_t>(2 * count, std::bit_cast<uint32_t>(1.0f))),
                          breaking = blankBuffer<gpu::BreakingRecord>(MOST_BREAKING),
                          broken = blankBuffer<gpu::BrokenBody>(MOST_BREAKING);
     const float find[] = {static_cast<float>(line.gravity), 0, 0, static_cast<float>(line.duration / 4),
@@ -94,7 +94,7 @@ Outcome judge(const Line& line) {
     });
     return {valuesOf<gpu::BlowRecord>(blows, pairs),
             valuesOf<uint32_t>(touches, pairs),
-            valuesOf<uint32_t>(shares, count),
+            valuesOf<uint32_t>(shares, 2 * count),
             valuesOf<gpu::BrokenBody>(broken, event[COUNT_BREAKING] + event[STATUS_TOO_LARGE]),
             valuesOf<gpu::BreakingRecord>(breaking, event[COUNT_BREAKING]),
             valuesOf<gpu::BreakableBody>(breakable, count),
@@ -165,7 +165,7 @@ TEST(Blows, OfABodyAreOneAStepTheHardest) {
     EXPECT_EQ(out.broken[1].ids.x, right);
     EXPECT_EQ(out.broken[0].ids.z, 1u);
     EXPECT_FLOAT_EQ(out.broken[0].blow.z, out.broken[1].blow.z) << "two that break share the energy";
-    const auto share = [&](uint32_t body) { return static_cast<double>(std::bit_cast<float>(out.shares[body])); };
+    const auto share = [&](uint32_t body) { return static_cast<double>(std::bit_cast<float>(out.shares[2 * body])); };
     EXPECT_NEAR(share(left), 0.01 / (20 * line.duration), 1e-5);
     EXPECT_NEAR(share(right), 0.01 / (30 * line.duration), 1e-5);
 }

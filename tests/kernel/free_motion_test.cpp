@@ -27,7 +27,7 @@ struct Buffers {
         : states(bufferOf(statesOf(bodies))), shapes(bufferOf(shapesOf(bodies))),
           solver_bodies(blankBuffer<gpu::SolverBody>(bodies.size())), spins(blankBuffer<gpu::vec4>(bodies.size())),
           none(bufferOf(std::vector<uint32_t>(bodies.size() + 1))), contacts(blankBuffer<gpu::SolverContact>(1)),
-          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(bodies.size())) {
+          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(2 * bodies.size())) {
         counts[COUNT_BODIES] = static_cast<uint32_t>(bodies.size());
     }
     Counts counts;
@@ -269,6 +269,41 @@ TEST(SmallFreeMotion, LeavesWhatIsNotSolvedWhereItIs) {
     const auto states = valuesOf<gpu::BodyState>(b.states, 2);
     EXPECT_EQ(wordsIn(states[0]), wordsIn(bodies[0].state));
     EXPECT_NE(placeOf(states[1]), bodies[1].place());
+}
+
+// The body after a step of which only a share may be made, and a second one.
+gpu::BodyState heldTwice(const RigidBody& body, const Vector& gravity, float share, float by_still) {
+    Buffers b({body});
+    gpu::SolverPush push{};
+    push.gravity = wordsOf(gravity, 1.0 / 240);
+    for (uint32_t step = 0; step < 2; ++step) {
+        begin(b, wordsOf(gravity, 1.0 / 60));
+        for (uint32_t k = 0; k < 4; ++k)
+            substep(b, push);
+        b.shares.mappedAs<float>()[0] = share;
+        b.shares.mappedAs<float>()[1] = by_still;
+        end(b, wordsOf(gravity, 1.0 / 60));
+    }
+    return valuesOf<gpu::BodyState>(b.states, 1)[0];
+}
+
+TEST(SmallFreeMotion, GivesNoGravityForTimeThatIsLost) {
+    const RigidBody body = tumbling(6, 3);
+    const Vector gravity(0, -9.81, 0);
+    const gpu::BodyState held = heldTwice(body, gravity, 0.25f, 1), free = heldTwice(body, gravity, 1, 1);
+    EXPECT_NEAR((xyz(held.velocity) - xyz(body.state.velocity) - 2 * 0.25 / 60 * gravity).norm(), 0, 1e-5);
+    EXPECT_NEAR((xyz(free.velocity) - xyz(body.state.velocity) - 2.0 / 60 * gravity).norm(), 0, 1e-5);
+}
+
+TEST(SmallFreeMotion, SlowsWhatHangsInWhatDoesNotMove) {
+    const RigidBody body = tumbling(6, 3);
+    const gpu::BodyState by_still = heldTwice(body, {0, 0, 0}, 0.25f, 0.25f), by_moving = heldTwice(body, {0, 0, 0}, 0.25f, 1);
+    EXPECT_NEAR((xyz(by_still.velocity) - 0.25 * xyz(body.state.velocity)).norm(), 0, 1e-6) << "from the second step on";
+    EXPECT_NEAR(xyz(by_still.momentum).norm(), 0.25 * xyz(body.state.momentum).norm(), 1e-5 * xyz(body.state.momentum).norm());
+    EXPECT_NEAR(xyz(by_still.spin).norm(), 0.25 * xyz(by_moving.spin).norm(), 1e-5);
+    EXPECT_NEAR((xyz(by_moving.velocity) - xyz(body.state.velocity)).norm(), 0, 1e-6);
+    EXPECT_EQ(by_still.sector.w & BODY_HANGS, BODY_HANGS);
+    EXPECT_EQ(by_moving.sector.w & BODY_HANGS, 0);
 }
 
 // What is no number would spread.

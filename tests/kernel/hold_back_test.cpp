@@ -14,19 +14,25 @@ constexpr double kStep = 1.0 / 60, kMargin = 0.02, kFinest = 1.0 / 4096; // of a
 
 struct Mover {
     RigidBody body;
-    Vector half;               // of its edges
-    Vector moved = {0, 0, 0};  // in the step
+    Vector half;              // of its edges
+    Vector moved = {0, 0, 0}; // in the step
     Quaternion turned = Quaternion::Identity();
-    double own = 1;            // the share that its own way allows
+    double own = 1;      // the share that its own way allows
+    bool is_held = true; // by the other one
 
     double reach() const { return half.norm(); }
+    double thickness() const { return std::max(half.minCoeff(), reach() / 4); }
+    // How far its corners go in the step.
+    double sweep() const { return std::min(1.0, own) * moved.norm() + 2 * turned.vec().norm() * reach(); }
+    bool isSwift() const { return body.moves() && sweep() > thickness() / 2; }
+    double partAt(double share) const { return is_held ? std::min(share, own) : own; }
     // Turns are shared out along the straight line between quaternions.
     Quaternion turnAt(double share) const {
-        const double part = std::min(share, own);
+        const double part = partAt(share);
         const Eigen::Vector4d line = part * turned.coeffs() + (1 - part) * Quaternion::Identity().coeffs();
         return Quaternion(line.normalized()) * turnOf(body.state.turn);
     }
-    Vector placeAt(double share) const { return body.place() + std::min(share, own) * moved; }
+    Vector placeAt(double share) const { return body.place() + partAt(share) * moved; }
     // Of its corners along n: the least and the greatest.
     std::array<double, 2> spanAt(double share, const Vector& n) const {
         const Vector along = turnAt(share).inverse() * n;
@@ -47,24 +53,21 @@ struct Meeting {
         return a.spanAt(share, n)[1] - b.spanAt(share, n)[0];
     }
     double allowed() const {
-        const auto of_a = a.spanAt(0, normal), of_b = b.spanAt(0, normal);
+        const Vector n = normalAt(0); // what is not held has already turned
+        const auto of_a = a.spanAt(0, n), of_b = b.spanAt(0, n);
         const double thinner = std::min(of_a[1] - of_a[0], of_b[1] - of_b[0]);
         const double most = std::max(thinner / 4, std::min(kMargin, std::min(a.reach(), b.reach()) / 10));
-        return std::max(most, depthAt(0) + most / 10);
+        const double room = a.body.moves() && b.body.moves() ? most : std::clamp(2 * most - depthAt(0), 0.0, most);
+        return std::max(most, depthAt(0) + room / 10);
     }
-    bool isSwift() const {
-        const double way = (std::min(1.0, b.own) * b.moved - std::min(1.0, a.own) * a.moved).norm();
-        return std::ranges::any_of(std::array{&a, &b}, [&](const Mover* m) {
-            const double thickness = std::max(m->half.minCoeff(), m->reach() / 4);
-            return m->body.moves() && way + 2 * m->turned.vec().norm() * m->reach() > thickness / 2;
-        });
-    }
+    bool isSwift() const { return a.isSwift() || b.isSwift(); }
 };
 
 Mover randomMover(Chance& chance, bool moves) {
     Mover m;
     m.body = randomBody(chance, moves);
     m.body.state.sector = {0, 0, 0, 0};
+    if (chance.oneIn(3)) m.body.state.offset.w *= 1000;
     m.half = {chance.between(0.05, 0.5), chance.between(0.05, 0.5), chance.between(0.05, 0.5)};
     m.body.shape.pieces = {0, 1, std::bit_cast<uint32_t>(static_cast<float>(m.half.minCoeff())), 0};
     m.body.shape.inverse_inertia[2].w = static_cast<float>(m.reach());
@@ -79,8 +82,14 @@ void setOff(Mover& m, Chance& chance, const Vector& towards) {
     const Vector aside = chance.oneIn(4) ? chance.inBox(1) : Vector::Zero(), ahead = m.moved + aside;
     m.body.state.velocity = wordsOf(ahead / kStep);
     const double along = std::clamp(m.moved.dot(ahead) / ahead.squaredNorm(), 0.0, 1.25);
-    const double off = (m.moved - along * ahead).norm(), thickness = std::max(m.half.minCoeff(), m.reach() / 4);
-    m.own = off > thickness ? thickness / off : 1;
+    const double off = (m.moved - along * ahead).norm();
+    m.own = off > m.thickness() ? m.thickness() / off : 1;
+}
+
+// What is much lighter holds only what is twice as swift.
+bool isHeldBy(const Mover& other, const Mover& m) {
+    const bool light = other.body.moves() && 0.01 * double{other.body.state.offset.w} > double{m.body.state.offset.w};
+    return !light || m.sweep() > m.thickness();
 }
 
 Meeting randomMeeting(Chance& chance) {
@@ -88,11 +97,14 @@ Meeting randomMeeting(Chance& chance) {
     meeting.a = randomMover(chance, chance.below(4) != 0);
     meeting.b = randomMover(chance, chance.below(4) != 0 || !meeting.a.body.moves());
     meeting.normal = chance.direction();
-    const double apart = chance.between(-0.02, 0.5) + meeting.a.spanAt(0, meeting.normal)[1] - meeting.b.spanAt(0, meeting.normal)[0];
+    const double apart =
+        chance.between(-0.02, 0.5) + meeting.a.spanAt(0, meeting.normal)[1] - meeting.b.spanAt(0, meeting.normal)[0];
     const Vector place = meeting.b.body.place() + apart * meeting.normal;
     meeting.b.body.state.offset = wordsOf(place, double{meeting.b.body.state.offset.w});
     setOff(meeting.a, chance, meeting.normal);
     setOff(meeting.b, chance, -meeting.normal);
+    meeting.a.is_held = isHeldBy(meeting.b, meeting.a);
+    meeting.b.is_held = isHeldBy(meeting.a, meeting.b);
     return meeting;
 }
 
@@ -103,8 +115,13 @@ gpu::SolverBody solved(const Mover& m) {
     return s;
 }
 
-// Body 2 k meets body 2 k + 1. The shares of both.
-std::vector<Word2> heldOnDevice(const std::vector<Meeting>& meetings) {
+// Of a way that a body may go, and that what does not move leaves it.
+struct Shares {
+    float all, still;
+};
+
+// Body 2 k meets body 2 k + 1.
+std::vector<Shares> heldOnDevice(const std::vector<Meeting>& meetings) {
     brittle::HullSet hulls;
     std::vector<gpu::PieceRecord> pieces;
     std::vector<RigidBody> bodies;
@@ -132,14 +149,25 @@ std::vector<Word2> heldOnDevice(const std::vector<Meeting>& meetings) {
     counts[COUNT_SWIFT] = count;
     const engine::Buffer list = bufferOf(countUp(count)), near = bufferOf(pairs), known = bufferOf(memory),
                          at = bufferOf(pieces), records = bufferOf(hulls.records), vertices = bufferOf(hulls.vertices),
-                         states = bufferOf(statesOf(bodies)), shapes = bufferOf(shapesOf(bodies)), moving = bufferOf(solver_bodies),
-                         shares = bufferOf(std::vector<float>(bodies.size(), 1.0f));
+                         states = bufferOf(statesOf(bodies)), shapes = bufferOf(shapesOf(bodies)),
+                         moving = bufferOf(solver_bodies), shares = bufferOf(std::vector<float>(2 * bodies.size(), 1.0f));
     onDevice([&](engine::Commands& commands) {
         const std::array<float, 5> push = {0, 0, 0, static_cast<float>(kStep), static_cast<float>(kMargin)};
         commands.dispatch(kernel("hold_back"), count, push,
                           {counts.words, list, near, known, at, records, vertices, states, shapes, moving, shares});
     });
-    return valuesOf<Word2>(shares, count);
+    return valuesOf<Shares>(shares, bodies.size());
+}
+
+// The share that a meeting leaves to those that it holds.
+double shareOf(const Meeting& m, const Shares& a, const Shares& b) {
+    EXPECT_TRUE(m.a.is_held || m.b.is_held);
+    const double share = double{m.a.is_held ? a.all : b.all};
+    EXPECT_EQ(double{a.all}, m.a.is_held ? share : 1.0) << "both stop at one time, if they are held";
+    EXPECT_EQ(double{b.all}, m.b.is_held ? share : 1.0) << "both stop at one time, if they are held";
+    EXPECT_EQ(a.still, m.b.body.moves() ? 1.0f : a.all);
+    EXPECT_EQ(b.still, m.a.body.moves() ? 1.0f : b.all);
+    return share;
 }
 
 TEST(SmallHoldBack, StopsBodiesWhereTheyWouldGoTooDeepAndNoOthers) {
@@ -148,21 +176,22 @@ TEST(SmallHoldBack, StopsBodiesWhereTheyWouldGoTooDeepAndNoOthers) {
         std::vector<Meeting> meetings;
         for (uint32_t k = 0; k < count; ++k)
             meetings.push_back(randomMeeting(chance));
-        const std::vector<Word2> shares = heldOnDevice(meetings);
-        uint32_t held = 0;
+        const std::vector<Shares> shares = heldOnDevice(meetings);
+        uint32_t held = 0, free = 0;
         for (uint32_t k = 0; k < count; ++k) {
             const Meeting& m = meetings[k];
-            const double share = double{std::bit_cast<float>(shares[k][0])}, allowed = m.allowed(), doubt = 1e-4;
-            ASSERT_EQ(shares[k][0], shares[k][1]) << "both stop at one time";
+            const double share = shareOf(m, shares[2 * k], shares[2 * k + 1]), allowed = m.allowed(), doubt = 1e-4;
+            free += m.a.is_held && m.b.is_held ? 0 : 1;
             if (!m.isSwift() || m.depthAt(1) < allowed - doubt) {
                 EXPECT_EQ(share, 1) << k;
             }
-            EXPECT_LE(m.isSwift() ? m.depthAt(share) : 0, allowed + doubt) << k;
+            EXPECT_TRUE(!m.isSwift() || share == 0 || m.depthAt(share) < allowed + doubt) << k;
             if (share == 1) continue;
             ++held;
             EXPECT_GT(m.depthAt(share + kFinest), allowed - doubt) << k << ": could go further than " << share;
         }
         EXPECT_TRUE(count < 100 || (held > count / 10 && held < count)) << held << " of " << count;
+        EXPECT_TRUE(count < 100 || (free > count / 50 && free < count / 2)) << "held up by nothing so light: " << free;
     }
 }
 

@@ -38,7 +38,7 @@ constexpr Row kRows[] = {
     {&S::narrow_arguments, "narrow_arguments", kContacts, Per::Step, kNarrowPhaseArgumentBytes},
     {&S::solver_bodies, "solver_bodies", std::nullopt, Per::Body, sizeof(gpu::SolverBody)},
     {&S::spins, "spins", std::nullopt, Per::Body, 16},
-    {&S::shares, "shares", Effect::Ccd, Per::Body, 4},
+    {&S::shares, "shares", Effect::Ccd, Per::Body, 8},
     {&S::solver_contacts, "solver_contacts", kContacts, Per::Contact, sizeof(gpu::SolverContact)},
     {&S::parents, "parents", kSleeping, Per::Body, 4},
     {&S::islands, "islands", kSleeping, Per::Body, 4},
