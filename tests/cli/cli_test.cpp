@@ -130,6 +130,25 @@ TEST_F(Cli, SitesFromAFile) {
         EXPECT_NEAR(file.pieces[0].site[k], k == 0 ? -.25 : 0, 1e-6);
 }
 
+TEST_F(Cli, APaneInSpokesAndRings) {
+    std::ofstream(path("pane.off")) << "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 .01\n1 0 .01\n1 1 .01\n0 1 .01\n"
+                                       "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+    const auto shatter = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"shatter",   path("pane.off"), "-o",    path("a.glb"),
+                                              "--pattern", "radial",         "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runProgram("brittle", arguments);
+    };
+    const Outcome run = shatter({"--at", "1,0.4,0.01", "--sites", "61", "--strength", "2"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["sites"]["used"], 61);
+    EXPECT_EQ(nlohmann::json::parse(run.out)["fragments"], 61);
+    EXPECT_EQ(shatter({}).exit_code, 0) << "hit in the middle where nothing is said";
+    const Outcome beside = shatter({"--at", "1.5,0,0"});
+    EXPECT_EQ(beside.exit_code, 2);
+    EXPECT_NE(beside.err.find("lies beside the model"), std::string::npos) << beside.err;
+}
+
 TEST_F(Cli, BadUsageIsRefused) {
     EXPECT_EQ(runProgram("brittle", {}).exit_code, 2);
     EXPECT_EQ(runProgram("brittle", {"break"}).exit_code, 2);
@@ -150,6 +169,7 @@ TEST_F(Cli, BadUsageIsRefused) {
         expectRefused({"shatter", "builtin:cube", "--cells", "edges", "--search", search}, 2);
     expectRefused({"shatter", "builtin:cube", "--strength", "5"}, 2);
     expectRefused({"shatter", "builtin:cube", "--at", "0,0,0", "--pattern", "uniform"}, 2);
+    expectRefused({"shatter", "builtin:cube", "--pattern", "radial"}, 2);
     expectRefused({"shatter", "builtin:nothing"}, 2);
     expectRefused({"shatter", path("missing.obj")}, 2);
     expectRefused({"shatter", "builtin:cube", "--sites-file", path("missing.txt")}, 2);

@@ -103,8 +103,10 @@ constexpr const char* kFooter =
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";
 
-const std::map<std::string, brittle::Pattern> kPatterns = {
-    {"uniform", brittle::Pattern::Uniform}, {"impact", brittle::Pattern::Impact}, {"paper", brittle::Pattern::Paper}};
+const std::map<std::string, brittle::Pattern> kPatterns = {{"uniform", brittle::Pattern::Uniform},
+                                                           {"impact", brittle::Pattern::Impact},
+                                                           {"paper", brittle::Pattern::Paper},
+                                                           {"radial", brittle::Pattern::Radial}};
 const std::map<std::string, brittle::Search> kSearches = {{"auto", brittle::Search::Auto},
                                                           {"linear", brittle::Search::Linear},
                                                           {"sphere_tree", brittle::Search::SphereTree},
@@ -155,8 +157,10 @@ std::optional<brittle::Double3> placeOf(const std::string& text) {
 void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& options) {
     CLI::Option* pattern =
         command
-            .add_option("--pattern", options->pattern,
-                        "where sites are placed: uniform, impact or paper; with --at impact if not said otherwise")
+            .add_option(
+                "--pattern", options->pattern,
+                "where sites are placed: uniform, impact, paper or, for panes, radial (in spokes and rings); with --at impact "
+                "if not said otherwise")
             ->transform(oneOf(kPatterns))
             ->option_text("NAME [uniform]");
     command

@@ -5,6 +5,7 @@
 #include "modules/brittle/fracture/event.h"
 #include "modules/brittle/fracture/group_size.h"
 #include "modules/brittle/fracture/known_counts.h"
+#include "modules/brittle/fracture/radial_sites.h"
 #include "modules/brittle/fracture/readback.h"
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
@@ -53,6 +54,7 @@ public:
                                            const FractureOptions& options) override {
         auto start = Clock::now();
         if (auto sound = checkOptions(options); !sound) return sound.error();
+        if (isRadial(mesh, options)) return shatterRadially(mesh, topology, options);
         auto prepared = prepare(mesh, options);
         if (!prepared) return prepared.error();
         uint32_t count = siteCount(options);
@@ -158,6 +160,21 @@ private:
         if (!(impact.contact_radius >= 0) || !(impact.favor >= 0))
             return engine::Error{engine::ErrorCode::BadInput, "an impact's strength is negative or no number"};
         return {};
+    }
+
+    static bool isRadial(const Mesh& mesh, const FractureOptions& options) {
+        const bool asks = options.site_count != 0 && !mesh.triangles.empty();
+        return asks && options.pattern == Pattern::Radial && options.given_sites.empty();
+    }
+
+    engine::Result<FractureResult> shatterRadially(const Mesh& mesh, const MeshTopology& topology,
+                                                   const FractureOptions& options) {
+        if (auto sound = checkImpact(mesh, options); !sound) return sound.error();
+        auto sites = radialSites(mesh, options.impact, options.site_count, options.seed);
+        if (!sites) return sites.error();
+        FractureOptions given = options;
+        given.given_sites = std::move(*sites);
+        return shatter(mesh, topology, given);
     }
 
     static engine::Result<void> checkCollider(uint32_t directions) {

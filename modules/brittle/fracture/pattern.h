@@ -10,7 +10,8 @@ namespace brittle {
 enum class Pattern : uint8_t {
     Uniform, // evenly
     Impact,  // evenly within the contact radius, outside thinner with the fourth power of the distance
-    Paper    // the paper's (section 2, figure 2): about the center of the box and the surface, drawn towards the impact
+    Paper,   // the paper's (section 2, figure 2): about the center of the box and the surface, drawn towards the impact
+    Radial   // of plates: in sectors and rings about the impact, so that cells are parted by spokes and rings (radial_sites.h)
 };
 
 // A blow. A solid that is hit at no place in particular is hit at the center of its box.
