@@ -4,11 +4,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/break_pattern.glsl"
 #include "lib/breaking_laws.glsl"
 #include "lib/half_edge.glsl"
 #include "lib/quaternion.glsl"
+#include "lib/radial_law.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
+#include "shared/scene.h"
 #include "shared/solver.h"
 
 GROUP_KERNEL;
@@ -25,6 +28,7 @@ UPDATES(9, BreakingRecord, breaking);
 UPDATES(10, BrokenBody, broken);
 UPDATES(11, uint, counts); // of the event
 UPDATES(12, uint, args);
+READS(13, SceneVertex, vertices);
 layout(push_constant) uniform Push {
     uint most_bodies, most_triangles, most_sites; // of one step
     uint most_fragments; // of one body
@@ -40,7 +44,8 @@ shared uint listed[MOST_BREAKING];
 shared uint sites_of[MOST_BREAKING];
 shared float paid_of[MOST_BREAKING];
 shared uint admitted[MOST_BREAKING];
-shared uint found;
+shared float reach_of[MOST_BREAKING];
+shared uint found, reach_sum;
 
 uint sideOf(uint body, uint pair) { return memory[pair].ids.x == body ? BREAKS_A : BREAKS_B; }
 
@@ -79,6 +84,18 @@ BlowRecord blowOf(uint body) { return blows[chosen[body]]; }
 // Of the blow's energy, what is this body's.
 float joulesOf(BlowRecord blow) { return blow.blow.z * (blow.sides.x == (BREAKS_A | BREAKS_B) ? 0.5 : 1.0); }
 
+// Of the blow, from the body's center of mass, world axes.
+vec3 armOf(uint body) {
+    BlowRecord blow = blowOf(body);
+    return memory[chosen[body]].ids.x != body ? blow.arm_b.xyz : blow.arm_a.xyz;
+}
+
+// To the furthest place of its surface's bounds.
+float furthestFrom(uint body, vec3 place) {
+    return length(max(place - breakable[body].low.xyz, breakable[body].high.xyz - place));
+}
+
+uint trianglesOf(uint body) { return (breakable[body].surface.y + breakable[body].surface.z) / 3u; }
 uint patternOf(uint body) { return uint(breakable[body].high.w); }
 BodyForm formOfBody(uint body) { return formOf(breakable[body].form.x, breakable[body].form.y); }
 uint seedOf(uint body) { return mixed(mixed(seed + body) + steps[STEPS_MADE]); }
@@ -114,49 +131,71 @@ Plane planeOf(uint body) {
 
 int placementOf(uint body, bool is_flat) {
     bool even = patternOf(body) == PATTERN_UNIFORM, thin = isThin(formOfBody(body));
+    if (patternOf(body) == PATTERN_PAPER) return SITES_PAPER;
     if (thin && is_flat) return even ? SITES_FLAT_EVEN : patternOf(body) == PATTERN_RADIAL ? SITES_RADIAL : SITES_FLAT;
     return even ? SITES_EVEN : thin ? SITES_SHELL : SITES_SOLID;
 }
 
-// Spokes and rings whose cracks cost what the blow pays for. Spokes are as many as the root of the speed (Vandenberghe,
-// Vermorel, Villermaux, Star-shaped crack pattern of broken windows, 2013), and fewer where that would take all; rings take what
-// spokes leave, each wider than the one within by a ratio: together 2 pi R / (ratio - 1), for a plate of the radius R.
-struct Rays {
-    uint spokes;
-    uint rings;
-    float ratio;
-};
+vec3 blowInFrameOf(uint body, vec3 arm) {
+    BreakableBody b = breakable[body];
+    return turned(turnBack(b.turn), turned(turnBack(bodies[body].turn), arm)) + b.balance.xyz;
+}
 
-const float kSpokes = 2.0;      // at 1 m/s; chosen
-const float kInnermost = 24.0;  // of a plate's side: the first ring's share
+bool isRadial(uint body) { return patternOf(body) == PATTERN_RADIAL && placementOf(body, planeOf(body).is_flat) == SITES_RADIAL; }
 
-Rays raysOf(uint body, BlowRecord blow) {
+vec3 cornerOf(uint vertex) { return vec3(vertices[vertex].position[0], vertices[vertex].position[1], vertices[vertex].position[2]); }
+
+// How far it is from the blow to the rim in its plane, on the average of all directions (lib/radial_law.glsl): every place of the
+// plane lies below one face and above another. Whole numbers, so that it does not matter which lane adds what.
+void measureReach(uint k, uint body, uint lane) {
+    vec3 place = blowInFrameOf(body, armOf(body));
+    Plane plane = planeOf(body);
+    float unit = furthestFrom(body, place) / 1048576.0;
+    if (lane == 0u) reach_sum = 0u;
+    barrier();
+    for (uint t = lane; t < min(trianglesOf(body), most_triangles); t += GROUP_SIZE) { // with more it never breaks
+        vec2 corners[3];
+        for (uint c = 0u; c < 3u; c++) {
+            vec3 at = cornerOf(breakable[body].surface.x + 3u * t + c) - place;
+            corners[c] = vec2(dot(at, plane.across), dot(at, plane.along));
+        }
+        atomicAdd(reach_sum, uint(inverseDistanceOver(corners[0], corners[1], corners[2]) / unit));
+    }
+    barrier();
+    if (lane == 0u) reach_of[k] = max(float(reach_sum), 1.0) * unit / (2.0 * 6.2832);
+    barrier();
+}
+
+float chanceFor(uint body, uint salt) { return float(mixed(seedOf(body) ^ salt) >> CHANCE_SHIFT) * CHANCE_STEP; }
+
+Rays raysOf(uint k, uint body) {
+    BlowRecord blow = blowOf(body);
     BodyForm form = formOfBody(body);
     MaterialCard card = cards[breakable[body].surface.w];
-    float long_ = card.cracks.z * joulesOf(blow) / card.cracks.y / form.thickness, radius = 0.5642 * form.side;
-    float spokes = min(max(floor(kSpokes * sqrt(blow.blow.y)), 3.0), float(max(most_fragments, 3u)));
-    float left = long_ - spokes * radius;
-    if (left <= 0.5 * radius) return Rays(clamp(uint(long_ / radius), 2u, uint(spokes)), 1u, 2.0);
-    float ratio = clamp(1.0 + 6.2832 * radius / left, 1.05, 8.0);
-    uint rings = 2u + uint(log(0.75 * kInnermost) / log(ratio));
-    return Rays(uint(spokes), clamp(rings, 1u, max(most_fragments / uint(spokes), 1u)), ratio);
+    float long_ = card.cracks.z * joulesOf(blow) / card.cracks.y / form.thickness, furthest = furthestFrom(body, blowInFrameOf(body, armOf(body)));
+    return raysFor(long_, blow.blow.y, form.side, reach_of[k], furthest, most_fragments, chanceFor(body, 0x5bd1e995u), chanceFor(body, 0x2545f491u));
+}
+
+// How the paper's sites crowd.
+float favorFor(uint body) {
+    float joules = joulesOf(blowOf(body));
+    BodyForm form = formOfBody(body);
+    vec3 middle = 0.5 * (breakable[body].low.xyz + breakable[body].high.xyz);
+    return isThin(form) ? favorInPlate(joules, distance(blowInFrameOf(body, armOf(body)), middle) / form.side) : favorOf(joules);
 }
 
 // That the blow pays for, as a whole number, and so many of them as a body may have; two at least, since it breaks.
 void countFragments(uint k, uint body) {
     MaterialCard card = cards[breakable[body].surface.w];
-    bool even = patternOf(body) == PATTERN_UNIFORM;
-    float chance = float(mixed(seedOf(body) ^ 0x5bd1e995u) >> CHANCE_SHIFT) * CHANCE_STEP;
-    uint paid = max(fragmentCount(card, formOfBody(body), joulesOf(blowOf(body)), 0xffffffu, chance, even), 2u);
-    if (patternOf(body) == PATTERN_RADIAL && placementOf(body, planeOf(body).is_flat) == SITES_RADIAL) {
-        Rays rays = raysOf(body, blowOf(body));
+    uint spread = spreadOf(patternOf(body));
+    uint paid = max(fragmentCount(card, formOfBody(body), joulesOf(blowOf(body)), 0xffffffu, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
+    if (isRadial(body)) {
+        Rays rays = raysOf(k, body);
         paid = rays.spokes * rays.rings;
     }
     paid_of[k] = float(paid);
     sites_of[k] = min(paid, most_fragments);
 }
-
-uint trianglesOf(uint body) { return (breakable[body].surface.y + breakable[body].surface.z) / 3u; }
 
 // In order, by one lane: there are few. Of what no step has room for, one a step is told: it stands behind what breaks.
 void admit() {
@@ -212,12 +251,16 @@ float contactRadiusOf(uint body, uint other, BlowRecord blow) {
 
 const float kAxisUnit = 16384.0;
 
-void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord blow) {
+// Of SITES_RADIAL: rings go on beyond the rim (lib/draw_radial.glsl).
+const float kRoomForRings = 0.25; // of the grid is the object's
+
+void setRecord(uint k, uint body, uint other, uint sites, Rays rays, BlowRecord blow) {
     BreakableBody b = breakable[body];
-    vec4 center = vec4(0.5 * (b.low.xyz + b.high.xyz), unitOf(0.5 * (b.high.xyz - b.low.xyz)));
-    vec3 own = turned(turnBack(bodies[body].turn), arm), place = turned(turnBack(b.turn), own) + b.balance.xyz;
+    vec3 place = blowInFrameOf(body, armOf(body));
     Plane plane = planeOf(body);
     int placement = placementOf(body, plane.is_flat);
+    float room = placement == SITES_RADIAL ? kRoomForRings : 1.0;
+    vec4 center = vec4(0.5 * (b.low.xyz + b.high.xyz), room * unitOf(0.5 * (b.high.xyz - b.low.xyz)));
     bool in_plane = placement == SITES_FLAT || placement == SITES_FLAT_EVEN || placement == SITES_RADIAL;
     vec3 normal = cross(plane.across, plane.along), to_middle = dot(b.balance.xyz - place, normal) * normal;
     if (in_plane) place += to_middle;
@@ -231,38 +274,43 @@ void setRecord(uint k, uint body, uint other, uint sites, vec3 arm, BlowRecord b
     breaking[k].low = ivec4(low, int(furthest));
     breaking[k].high = ivec4(high, int(seedOf(body)));
     if (placement == SITES_RADIAL) {
-        Rays rays = raysOf(body, blow);
         breaking[k].sites.zw = uvec2(rays.spokes, uint(rays.ratio * 65536.0));
-        breaking[k].impact.w = int(clamp(formOfBody(body).side / kInnermost * grid, 1.0, furthest));
+        breaking[k].impact.w = int(clamp(rays.innermost * grid, 1.0, furthest));
     }
+    if (placement == SITES_PAPER) breaking[k].sites.z = uint(favorOf(broken[k].share.x) * 4294967040.0);
     breaking[k].across = ivec4(roundEven(plane.across * kAxisUnit), placement);
     breaking[k].along = ivec4(roundEven(plane.along * kAxisUnit), int(min(plane.depth * grid, furthest)) + 1);
 }
 
-void setBroken(uint k, uint body, uint sites, float paid) {
+void setBroken(uint k, uint body, uint sites, float paid, Rays rays) {
     uint pair = chosen[body];
     BlowRecord blow = blows[pair];
     bool is_b = memory[pair].ids.x != body;
     uint other = is_b ? memory[pair].ids.x : memory[pair].ids.y;
-    vec3 normal = memory[pair].normal.xyz, arm = is_b ? blow.arm_b.xyz : blow.arm_a.xyz;
+    vec3 normal = memory[pair].normal.xyz;
     float joules = cards[breakable[body].surface.w].cracks.z * joulesOf(blow);
     broken[k].ids = uvec4(body, other, pair, is_b ? 1u : 0u);
     broken[k].blow = vec4(blow.blow.xy, joules, 0.0);
     broken[k].share = vec4(joulesOf(blow), paid, 0.0, 0.0);
-    broken[k].place = vec4(arm, blow.blow.w);
+    broken[k].place = vec4(armOf(body), blow.blow.w);
     broken[k].along = vec4(is_b ? -normal : normal, 0.0);
-    setRecord(k, body, other, sites, arm, blow);
+    setRecord(k, body, other, sites, rays, blow);
 }
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
     if (world_counts[COUNT_BLOWS] == 0u || world_counts[STATUS_FAILED] != 0u) return;
     listBroken(lane);
+    for (uint k = 0u; k < found; k++) {
+        if (isRadial(listed[k])) measureReach(k, listed[k], lane); // the same for all lanes
+    }
     for (uint k = lane; k < found; k += GROUP_SIZE) countFragments(k, listed[k]);
     barrier();
     if (lane == 0u) admit();
     barrier();
     for (uint k = lane; k < found; k += GROUP_SIZE) {
-        if (admitted[k] != NO_INDEX) setBroken(admitted[k], listed[k], sites_of[k], paid_of[k]);
+        if (admitted[k] == NO_INDEX) continue;
+        Rays rays = isRadial(listed[k]) ? raysOf(k, listed[k]) : Rays(0u, 0u, 0.0, 0.0);
+        setBroken(admitted[k], listed[k], sites_of[k], paid_of[k], rays);
     }
 }

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/breaking_laws.glsl"
+#include "lib/break_pattern.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
 #include "shared/solver.h"
@@ -42,8 +43,8 @@ bool breaksBody(uint body, uint other, BlowRecord record, float share) {
     BodyForm form = formOf(b.form.x, b.form.y);
     MaterialCard card = cards[b.surface.w];
     Blow blow = Blow(record.blow.x, record.blow.y, impedanceOf(other));
-    bool even = uint(b.high.w) == PATTERN_UNIFORM;
-    return breaks(card, form, b.form.z, blow, even) && paysForTwo(card, form, share * energyOf(blow), even);
+    uint spread = spreadOf(uint(b.high.w));
+    return breaks(card, form, b.form.z, blow, spread) && paysForTwo(card, form, share * energyOf(blow), spread);
 }
 
 uint sidesThatBreak(uvec4 ids, BlowRecord record) {

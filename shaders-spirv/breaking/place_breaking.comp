@@ -1,4 +1,4 @@
-// Sites of all that breaks, each inside its object: a workgroup a site, whose lanes share the triangles that tell inside from
+// Sites of all that breaks, each inside its object, but for those of rings: a workgroup a site, whose lanes share the triangles that tell inside from
 // outside. Drawn as the record says (SITES_*), and where that finds no place, evenly.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -20,7 +20,7 @@ uint seed_low, seed_high;
 #include "lib/draw.glsl"
 #include "lib/draw_impact.glsl"
 #include "lib/draw_plate.glsl"
-#include "lib/sine_hash.glsl"
+#include "lib/draw_paper.glsl"
 #include "lib/draw_radial.glsl"
 #include "lib/winding.glsl"
 
@@ -60,6 +60,47 @@ bool isInside(ivec3 p, Ranges r) {
     return inside;
 }
 
+// The first try of a candidate that lies inside.
+bool drawCandidate(uint candidate, BreakingRecord object, Ranges r, ivec3 corner, out ivec3 p) {
+    uint own = r.own.y - r.own.x, total = own + r.earlier.y - r.earlier.x;
+    bool found = false;
+    for (uint attempt = 0u; attempt < PAPER_DRAWS && !found && budget > 0u; attempt++) {
+        PaperKey key = keyOf(candidate, attempt);
+        uint k = triangleFor(key, total), t = k < own ? r.own.x + k : r.earlier.x + k - own;
+        p = placeBy(key, cornerAt(t, 0u) - corner, cornerAt(t, 1u) - corner, cornerAt(t, 2u) - corner, (object.low.xyz + object.high.xyz) / 2);
+        found = isInside(corner + p, r);
+    }
+    return found;
+}
+
+// Of eight candidates the nearest to the blow, as often as its strength says, else the first.
+bool drawAsPaper(uint site, BreakingRecord object, Ranges r, ivec3 corner, out ivec3 p) {
+    bool favors = takesNearest(site, object.sites.z), found = false;
+    int64_t nearest = int64_t(0);
+    for (uint k = 0u; k < CANDIDATES && (favors || !found); k++) {
+        ivec3 candidate;
+        if (!drawCandidate(site * CANDIDATES + k, object, r, corner, candidate)) continue; // the same for all lanes
+        int64_t square = squaredLength(candidate - object.impact.xyz);
+        bool takes = !found || isNegative(square - nearest);
+        p = takes ? candidate : p;
+        nearest = takes ? square : nearest;
+        found = true;
+    }
+    return found;
+}
+
+// Where any of its cell lies in the object; on the grid, on which there is room for it around the object.
+bool drawOnSpoke(uint site, BreakingRecord object, Ranges r, ivec3 corner, out ivec3 p) {
+    bool wanted = false;
+    for (uint k = 0u; k < RADIAL_DRAWS && !wanted && budget > 0u; k++) {
+        ivec3 at = placeInSector(site, k, object);
+        bool near_ = all(greaterThanEqual(at, object.low.xyz)) && all(lessThanEqual(at, object.high.xyz)); // the same for all lanes
+        if (near_) wanted = isInside(corner + at, r);
+    }
+    p = radialSite(site, object);
+    return wanted && all(greaterThan(p, ivec3(0))) && all(lessThan(p, ivec3(1 << 24)));
+}
+
 ivec3 drawEvenly(uint site, uint attempt, BreakingRecord object) {
     ivec3 p;
     for (uint k = 0u; k < 3u; k++)
@@ -69,7 +110,7 @@ ivec3 drawEvenly(uint site, uint attempt, BreakingRecord object) {
 
 // Every other site of a solid lies evenly: all of it is strained (modules/brittle/effects/material.h).
 bool isEven(uint site, uint attempt, int placement) {
-    bool always = placement == SITES_EVEN || placement == SITES_FLAT_EVEN || (placement == SITES_SOLID && (site & 1u) != 0u);
+    bool always = placement == SITES_EVEN || placement == SITES_PAPER || placement == SITES_FLAT_EVEN || (placement == SITES_SOLID && (site & 1u) != 0u);
     return always || attempt >= IMPACT_DRAWS;
 }
 
@@ -77,7 +118,6 @@ bool drawFor(uint site, uint attempt, BreakingRecord object, out ivec3 p) {
     int placement = object.across.w;
     bool even = isEven(site, attempt, placement), found = true;
     if (placement == SITES_FLAT || placement == SITES_FLAT_EVEN) found = drawOnPlate(site, attempt, object, even, p);
-    else if (placement == SITES_RADIAL) found = drawRadial(site, attempt, object, p);
     else if (even) p = drawEvenly(site, attempt, object);
     else if (placement == SITES_SHELL) found = drawInShell(site, attempt, object, p);
     else found = drawAbout(site, attempt, object.impact, uint(object.low.w), p);
@@ -95,8 +135,10 @@ void main() {
     seed_high = 0u;
     Ranges ranges = rangesOf(object);
     ivec3 corner = tileAt(number), p = ivec3(0);
-    bool done = false;
-    for (uint turn = 0u; turn < IMPACT_DRAWS + EVEN_DRAWS && !done && budget > 0u; turn++) {
+    bool is_radial = object.across.w == SITES_RADIAL, done = false;
+    if (is_radial) done = drawOnSpoke(site - object.sites.x, object, ranges, corner, p);
+    else if (object.across.w == SITES_PAPER) done = drawAsPaper(site - object.sites.x, object, ranges, corner, p);
+    for (uint turn = 0u; turn < IMPACT_DRAWS + EVEN_DRAWS && !is_radial && !done && budget > 0u; turn++) {
         bool candidate = false;
         for (; attempt < IMPACT_DRAWS + EVEN_DRAWS && !candidate; attempt++) {
             candidate = drawFor(site - object.sites.x, attempt, object, p);

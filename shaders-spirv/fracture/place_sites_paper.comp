@@ -1,14 +1,11 @@
-// Sites as the paper places them (section 2, figure 2): on a random triangle by three steps of interpolation, a side, the
-// opposite corner, the center of the box; eight candidates a site, of which the one nearest to the impact is taken with a
-// probability that grows with its strength, else the first. 256 lanes make 32 sites. Random numbers are the paper's sine hash
-// (listing 1), in fixed point, so that all devices draw the same; candidates outside the solid are drawn again.
+// Sites as the paper places them (lib/draw_paper.glsl): eight candidates a site, of which the one nearest to the impact is taken
+// with a probability that grows with its strength, else the first. 256 lanes make 32 sites. Random numbers are the paper's sine
+// hash (listing 1), in fixed point, so that all devices draw the same; candidates outside the solid are drawn again.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/wide.glsl"
-#include "lib/sine_hash.glsl"
 
-#define CANDIDATES 8u
 #define SITES 32u
 layout(local_size_x = 256) in;
 UPDATES(0, uint, counts);
@@ -19,21 +16,15 @@ READS(4, uint, column_triangles);
 UPDATES(5, uint, raw_sites);
 UPDATES(6, uint, placed);
 #include "lib/place_in_mesh.glsl"
+#include "lib/draw_paper.glsl"
 
 shared ivec4 candidates[SITES * CANDIDATES]; // w: whether it lies inside
 
-// On the way from a to b; `share` of 2^32.
-ivec3 between(ivec3 a, ivec3 b, uint share) {
-    ivec3 d = b - a;
-    return a + ivec3((int64_t(d.x) * int64_t(share)) >> 32, (int64_t(d.y) * int64_t(share)) >> 32, (int64_t(d.z) * int64_t(share)) >> 32);
-}
-
 ivec3 drawPlace(uint candidate, uint attempt) {
-    uint key = candidate + seed_low, salt = attempt * 4u + seed_high;
-    uint t = below(sineHash(key, salt), triangle_count);
-    ivec3 a = grid_vertices[triangles[3u * t]].xyz, b = grid_vertices[triangles[3u * t + 1u]].xyz, c = grid_vertices[triangles[3u * t + 2u]].xyz;
-    ivec3 on_side = between(a, b, sineHash(key, salt + 1u)), on_triangle = between(c, on_side, sineHash(key, salt + 2u));
-    return between((low.xyz + high.xyz) / 2, on_triangle, sineHash(key, salt + 3u));
+    PaperKey key = keyOf(candidate, attempt);
+    uint t = triangleFor(key, triangle_count);
+    return placeBy(key, grid_vertices[triangles[3u * t]].xyz, grid_vertices[triangles[3u * t + 1u]].xyz,
+                   grid_vertices[triangles[3u * t + 2u]].xyz, (low.xyz + high.xyz) / 2);
 }
 
 void drawCandidate(uint lane, uint candidate, bool asked) {
@@ -69,7 +60,7 @@ void main() {
     drawCandidate(lane, drawn_for * CANDIDATES + lane % CANDIDATES, drawn_for < site_count && placed[min(drawn_for, site_count - 1u)] == 0u);
     barrier();
     if (lane >= SITES || site >= site_count || placed[site] != 0u) return;
-    int best = chosen(lane * CANDIDATES, draw(site, 0u, 0u) < favor);
+    int best = chosen(lane * CANDIDATES, takesNearest(site, favor));
     if (best < 0) return;
     place(site, candidates[lane * CANDIDATES + uint(best)].xyz);
 }

@@ -27,31 +27,51 @@ BodyForm formOf(float volume, float surface) {
 
 bool isThin(BodyForm form) { return float(THIN) * form.thickness < form.side; }
 
-float cracksOfSolid(BodyForm form, float count, bool even) {
-    float edge = pow(form.volume, 1.0 / 3.0), rim = 1.0 - 1.0 / count;
-    float crowded = even ? 1.0 : float(BLOW_IN_SOLID) + float(BLOW_IN_SOLID_MORE) * inversesqrt(count);
-    return crowded * 0.5 * float(CELL_SURFACE) * edge * edge * (pow(count, 1.0 / 3.0) - 1.0 / count) - float(SOLID_RIM) * max(form.surface, 6.0 * edge * edge) * rim;
+// How often the paper's pattern takes the candidate nearest to a blow (modules/brittle/fracture/pattern.h).
+float favorOf(float joules) { return 1.0 - exp2(-joules); }
+
+// The paper's sites lie about the middle as well: a plate that is hit beside it has them in two places, and as much crack as if the
+// nearest candidate were taken less often. `off`: how far from the middle, of its side. Measured in worlds.
+const float kPaperOff = 0.31, kPaperAside = 0.3;
+float favorInPlate(float joules, float off) { return favorOf(joules) * (1.0 - kPaperOff * min(off / kPaperAside, 1.0)); }
+
+float crowdingOf(float few, float more, float count) { return few + more * inversesqrt(count); }
+float paperCrowdingOf(float first, float falls, float most, float count, float favor) { return 1.0 - favor * (1.0 - min(most, first * pow(count, -falls))); }
+
+float crowdingInSolid(float count, uint spread, float favor) {
+    if (spread == SPREAD_PAPER) return paperCrowdingOf(float(PAPER_IN_SOLID), float(PAPER_IN_SOLID_FALLS), float(PAPER_IN_SOLID_MOST), count, favor);
+    return spread == SPREAD_EVEN ? 1.0 : crowdingOf(float(BLOW_IN_SOLID), float(BLOW_IN_SOLID_MORE), count);
 }
 
-float cracksOfPlate(BodyForm form, float count, bool even) {
-    float wall = form.side * form.thickness, rim = 1.0 - 1.0 / count, crowded = even ? 1.0 : float(BLOW_IN_PLATE) + float(BLOW_IN_PLATE_MORE) * inversesqrt(count);
-    return crowded * 0.5 * float(CELL_OUTLINE) * wall * (sqrt(count) - 1.0 / count) - 4.0 * float(PLATE_RIM) * wall * rim;
+float crowdingInPlate(float count, uint spread, float favor) {
+    if (spread == SPREAD_PAPER) return paperCrowdingOf(float(PAPER_IN_PLATE), float(PAPER_IN_PLATE_FALLS), float(PAPER_IN_PLATE_MOST), count, favor);
+    return spread == SPREAD_EVEN ? 1.0 : crowdingOf(float(BLOW_IN_PLATE), float(BLOW_IN_PLATE_MORE), count);
 }
 
-float crackAreaOf(BodyForm form, float count, bool even) {
+float cracksOfSolid(BodyForm form, float count, uint spread, float favor) {
+    float edge = pow(form.volume, 1.0 / 3.0), rim = 1.0 - 1.0 / count, bulk = 0.5 * float(CELL_SURFACE) * edge * edge * (pow(count, 1.0 / 3.0) - 1.0 / count);
+    return crowdingInSolid(count, spread, favor) * bulk - float(SOLID_RIM) * max(form.surface, 6.0 * edge * edge) * rim;
+}
+
+float cracksOfPlate(BodyForm form, float count, uint spread, float favor) {
+    float wall = form.side * form.thickness, rim = 1.0 - 1.0 / count;
+    return crowdingInPlate(count, spread, favor) * 0.5 * float(CELL_OUTLINE) * wall * (sqrt(count) - 1.0 / count) - 4.0 * float(PLATE_RIM) * wall * rim;
+}
+
+float crackAreaOf(BodyForm form, float count, uint spread, float favor) {
     if (count <= 1.0) return 0.0;
     float wide = form.side / form.thickness, most = wide * wide;
-    if (!isThin(form)) return max(cracksOfSolid(form, count, even), 0.0);
-    float plate = cracksOfPlate(form, min(count, most), even);
-    return count <= most ? plate : max(plate, cracksOfSolid(form, count, even));
+    if (!isThin(form)) return max(cracksOfSolid(form, count, spread, favor), 0.0);
+    float plate = cracksOfPlate(form, min(count, most), spread, favor);
+    return count <= most ? plate : max(plate, cracksOfSolid(form, count, spread, favor));
 }
 
 // crackAreaOf grows with the count: the most that can be paid for, between 1 and 2^24, by halving.
-float expectedFragments(MaterialCard card, BodyForm form, float joules, bool even) {
+float expectedFragments(MaterialCard card, BodyForm form, float joules, uint spread, float favor) {
     float area = card.cracks.z * joules / card.cracks.y, low = 0.0, high = 24.0;
     for (uint k = 0u; k < 28u; k++) {
         float middle = 0.5 * (low + high);
-        bool paid = crackAreaOf(form, exp2(middle), even) <= area;
+        bool paid = crackAreaOf(form, exp2(middle), spread, favor) <= area;
         low = paid ? middle : low;
         high = paid ? high : middle;
     }
@@ -64,13 +84,13 @@ float roomForFragments(MaterialCard card, BodyForm form) {
 }
 
 // To the next whole number below or above, more often to the nearer one: a chance of 0 rounds down.
-uint fragmentCount(MaterialCard card, BodyForm form, float joules, uint budget, float chance, bool even) {
-    return uint(min(min(floor(expectedFragments(card, form, joules, even) + chance), roomForFragments(card, form)), float(budget)));
+uint fragmentCount(MaterialCard card, BodyForm form, float joules, uint budget, float chance, uint spread, float favor) {
+    return uint(min(min(floor(expectedFragments(card, form, joules, spread, favor) + chance), roomForFragments(card, form)), float(budget)));
 }
 
 // Whether the energy pays for two fragments, for which there is room.
-bool paysForTwo(MaterialCard card, BodyForm form, float joules, bool even) {
-    return card.cracks.z * joules >= card.cracks.y * crackAreaOf(form, 2.0, even) && roomForFragments(card, form) >= 2.0;
+bool paysForTwo(MaterialCard card, BodyForm form, float joules, uint spread) {
+    return card.cracks.z * joules >= card.cracks.y * crackAreaOf(form, 2.0, spread, favorOf(joules)) && roomForFragments(card, form) >= 2.0;
 }
 
 // The chance is that of the object, bit for bit the host's.
@@ -88,8 +108,8 @@ float impactStress(MaterialCard card, BodyForm form, Blow blow) {
     return gain * card.elastic.z / (1.0 + card.elastic.z / blow.other_impedance) * blow.speed;
 }
 
-bool breaks(MaterialCard card, BodyForm form, float strength, Blow blow, bool even) {
-    return impactStress(card, form, blow) >= strength && paysForTwo(card, form, energyOf(blow), even);
+bool breaks(MaterialCard card, BodyForm form, float strength, Blow blow, uint spread) {
+    return impactStress(card, form, blow) >= strength && paysForTwo(card, form, energyOf(blow), spread);
 }
 
 // N s, which takes so much energy from the motion of both and never turns them back.

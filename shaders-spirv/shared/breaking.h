@@ -18,7 +18,7 @@ struct BreakingRecord {
     ivec4 low;    // of its surface on its grid; w: to the furthest place of it from the impact
     ivec4 high;   // w: seed of its draws
     uvec4 sites;  // first of all that break, how many; of SITES_RADIAL spokes, and the ratio of a ring's radius to the last
-                  // one's, of 2^16
+                  // one's, of 2^16; of SITES_PAPER how often the candidate nearest to the blow is taken, of 2^32
     ivec4 across; // unit vector in the plane of what is flat, of 2^14; w: SITES_*
     ivec4 along;  // another one, at a right angle; w: grid steps from the middle plane, within which all of it lies
 };
@@ -30,10 +30,12 @@ struct BreakingRecord {
 #define SITES_EVEN 3      /* evenly */
 #define SITES_FLAT_EVEN 4 /* evenly, in a plane */
 #define SITES_RADIAL 5    /* in sectors and rings about the blow, in a plane (lib/draw_radial.glsl) */
+#define SITES_PAPER 6     /* as the paper has them (lib/draw_paper.glsl) */
 // As BreakPattern of a scene has them; what is not thin and flat takes PATTERN_RADIAL for PATTERN_IMPACT.
 #define PATTERN_IMPACT 0
 #define PATTERN_UNIFORM 1
 #define PATTERN_RADIAL 2
+#define PATTERN_PAPER 3
 
 // What of a body there is to break, for every slot of a body. Its surface keeps the frame in which it was made, however often
 // what it bounds breaks: turning its vertices would round them.
@@ -124,7 +126,9 @@ struct BreakEvent {
 #define EDGES_A_FACE 3
 #define CORNERS_A_FACE 6
 
-// Draws of a site: about the impact, then evenly in the box; a site that found no place by then is left out.
+// Draws of a site: about the impact, then evenly in the box; a site that found no place by then is left out. Of each of the paper's
+// candidates first of all.
+#define PAPER_DRAWS 32
 #define IMPACT_DRAWS 96
 #define EVEN_DRAWS 160
 

@@ -21,6 +21,18 @@ GPU_NAMESPACE_BEGIN
 #define BLOW_IN_SOLID_MORE 0.2
 #define BLOW_IN_PLATE 0.86
 #define BLOW_IN_PLATE_MORE 0.25
+// The same among sites as the paper has them, where all are the nearest of eight candidates: FIRST over a power of the count, MOST
+// at most.
+#define PAPER_IN_SOLID 1.45
+#define PAPER_IN_SOLID_FALLS 0.115
+#define PAPER_IN_SOLID_MOST 0.97
+#define PAPER_IN_PLATE 1.24
+#define PAPER_IN_PLATE_FALLS 0.175
+#define PAPER_IN_PLATE_MOST 1.0
+// How sites lie: about the blow, evenly, or as the paper has them.
+#define SPREAD_ABOUT_BLOW 0
+#define SPREAD_EVEN 1
+#define SPREAD_PAPER 2
 // A body is thin, and breaks as a plate does, if its thickness is less than its side by this.
 #define THIN 3.0
 

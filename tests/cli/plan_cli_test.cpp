@@ -105,6 +105,21 @@ TEST_F(PlanCli, MeasuresWhereItIsAskedTo) {
         EXPECT_EQ(pass.contains("us"), pass["kernel"] != "fill" && pass["kernel"] != "copy") << pass;
 }
 
+TEST_F(PlanCli, HasTheSamePassesWhateverThePatternThatBodiesBreakIn) {
+    std::vector<json> plans;
+    for (const char* pattern : {"impact", "paper", "radial"}) {
+        std::ofstream(path("pattern.toml")) << "name = \"pane\"\neffects = [\"impact_fracture\"]\n[[body]]\nshape = \"box\"\n"
+                                               "size = [1, 1, 0.01]\nmaterial = \"glass\"\nbreak_pattern = \""
+                                            << pattern << "\"\n";
+        const Outcome run = runProgram("brittle", {"plan", path("pattern.toml"), "--json"});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        plans.push_back(json::parse(run.out));
+    }
+    EXPECT_TRUE(hasPass(plans[0], "place_breaking"));
+    EXPECT_EQ(plans[1], plans[0]);
+    EXPECT_EQ(plans[2], plans[0]);
+}
+
 TEST_F(PlanCli, TellsPeopleTheSame) {
     const Outcome run = runProgram("brittle", {"plan", scene(R"(["friction", "dust"])"), "--measure"});
     EXPECT_EQ(run.exit_code, 0) << run.err;

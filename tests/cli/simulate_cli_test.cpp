@@ -51,12 +51,13 @@ protected:
         return path("small.toml");
     }
     // A ball of glass, 20 cm above the ground.
-    std::string thrownBall(bool breaks) const {
+    std::string thrownBall(bool breaks, const std::string& pattern = "impact") const {
         std::ofstream(path("ball.toml")) << "name = \"ball\"\neffects = [\"gravity\", \"contacts\", \"friction\""
                                          << (breaks ? ", \"impact_fracture\"" : "")
                                          << "]\n[camera]\nwidth = 160\nheight = 90\neye = [0.5, 0.5, 1]\ntarget = [0, 0.1, 0]\n"
                                             "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius = 0.1\nplace = [0, 0.3, 0]\n"
-                                            "velocity = [0, -6, 0]\nmaterial = \"glass\"\n[[collider]]\nname = \"ground\"\n";
+                                            "velocity = [0, -6, 0]\nmaterial = \"glass\"\nbreak_pattern = \""
+                                         << pattern << "\"\n[[collider]]\nname = \"ground\"\n";
         return path("ball.toml");
     }
     // A program that is found as ffmpeg.
@@ -189,6 +190,18 @@ TEST_F(SimulateCli, ABallThatBreaksGivesWayToItsFragments) {
 }
 
 // A ball of concrete, between the ground and a block of steel; its fragments break again while the block comes down on them.
+TEST_F(SimulateCli, BreaksBodiesInThePatternThatTheSceneSays) {
+    std::set<std::string> hashes;
+    for (const char* pattern : {"impact", "uniform", "paper"}) {
+        const Outcome run = simulate({thrownBall(true, pattern), "--seconds", "0.1", "--json"});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const auto told = nlohmann::json::parse(run.out);
+        EXPECT_EQ(told["broken"], 1) << told.dump(1);
+        hashes.insert(told["state_hash"].dump());
+    }
+    EXPECT_EQ(hashes.size(), 3u);
+}
+
 TEST_F(SimulateCli, SaysWhatBrokeByWhatAndWhatStayedWhole) {
     std::ofstream(path("told.toml")) << "name = \"told\"\neffects = [\"gravity\", \"impact_fracture\", \"events\"]\n"
                                         "[budgets]\nfragments = 100\nmost_fragments = 60\n"

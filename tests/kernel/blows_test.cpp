@@ -82,6 +82,7 @@ Outcome judge(const Line& line) {
     const float find[] = {static_cast<float>(line.gravity), 0, 0, static_cast<float>(line.duration / 4),
                           static_cast<float>(line.duration)};
     const uint32_t admit[] = {line.room[0], line.room[1], line.room[2], line.room[3], 7};
+    const engine::Buffer vertices = blankBuffer<float>(8); // of what breaks in spokes and rings, which nothing does
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("find_blows"), pairs, find,
                           {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, hardest});
@@ -90,7 +91,7 @@ Outcome judge(const Line& line) {
                           {counts.words, memory, states, blows, chosen, touches, shares});
         commands.dispatchGroups(kernel("admit_breaking"), 1, admit,
                                 {counts.words, memory, states, shapes, blows, chosen, cards, steps, breakable, breaking, broken,
-                                 event.words, event.args});
+                                 event.words, event.args, vertices});
     });
     return {valuesOf<gpu::BlowRecord>(blows, pairs),
             valuesOf<uint32_t>(touches, pairs),

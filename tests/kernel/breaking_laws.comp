@@ -18,7 +18,7 @@ void main() {
     BodyForm form = formOf(bodies[k].x, bodies[k].y);
     Blow blow = Blow(blows[k].x, blows[k].y, blows[k].z);
     float joules = energyOf(blow), strength = strengthOf(card, form.volume, bodies[k].z);
-    laws[2u * k] = vec4(expectedFragments(card, form, joules, false), roomForFragments(card, form), impactStress(card, form, blow), strength);
+    laws[2u * k] = vec4(expectedFragments(card, form, joules, SPREAD_ABOUT_BLOW, 0.0), roomForFragments(card, form), impactStress(card, form, blow), strength);
     laws[2u * k + 1u] = vec4(crackImpulse(blow, card.cracks.z * joules), hertzRadiusOf(blow, bodies[k].w, blows[k].w),
-                             float(fragmentCount(card, form, joules, 1000u, 0.0, false)), breaks(card, form, strength, blow, false) ? 1.0 : 0.0);
+                             float(fragmentCount(card, form, joules, 1000u, 0.0, SPREAD_ABOUT_BLOW, 0.0)), breaks(card, form, strength, blow, SPREAD_ABOUT_BLOW) ? 1.0 : 0.0);
 }

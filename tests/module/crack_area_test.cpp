@@ -18,7 +18,15 @@ struct Target {
     brittle::ShapeDescription shape;
     std::string material;
     double half_depth = 0; // m, towards what hits it
+    brittle::BreakPattern pattern = brittle::BreakPattern::Impact;
+    brittle::Double3 off = {0, 0, 0}; // of its middle, from where it is hit
 };
+
+Target brokenBy(brittle::BreakPattern pattern, Target target, brittle::Double3 off = {0, 0, 0}) {
+    target.pattern = pattern;
+    target.off = off;
+    return target;
+}
 
 Target cubeOf(double edge, const char* material) {
     Target target{{}, material, edge / 2};
@@ -56,15 +64,19 @@ brittle::BodyForm formOf(const Target& target) {
     return brittle::formOf(hull->measures.volume, area);
 }
 
+brittle::Spread spreadOf(brittle::BreakPattern pattern) {
+    return pattern == brittle::BreakPattern::Paper ? brittle::Spread::Paper : brittle::Spread::AboutBlow;
+}
+
 constexpr double kFast = 10; // m/s, which breaks all of them
 
 // So many of them, far apart in empty space, each about to be hit by a ball with the energy that the law asks for so many
-// fragments: the ball is as heavy as the target, or lighter where that would be slow.
+// fragments (in spokes and rings, about the blow): the ball is as heavy as the target, or lighter where that would be slow.
 SceneDescription hits(const Target& target, uint32_t copies, double fragments) {
     const brittle::Material& material = *brittle::findMaterial(target.material);
     const brittle::BodyForm form = formOf(target);
     const double mass = material.density * form.volume, far = 20 * form.side;
-    const double joules = brittle::energyForFragments(material, form, fragments);
+    const double joules = brittle::energyForFragments(material, form, fragments, spreadOf(target.pattern));
     const double speed = std::max(kFast, std::sqrt(4 * joules / mass)), meets = 2 * joules / (speed * speed);
     SceneDescription scene;
     scene.effects = {"contacts", "impact_fracture", "events"};
@@ -72,7 +84,8 @@ SceneDescription hits(const Target& target, uint32_t copies, double fragments) {
         BodyDescription body, ball;
         body.shape = target.shape;
         body.material = target.material;
-        body.place = {far * k, 0, 0};
+        body.break_pattern = target.pattern;
+        body.place = {far * k + target.off[0], target.off[1], target.off[2]};
         ball.shape.kind = ShapeKind::Ball;
         ball.shape.radius = 0.15 * form.side;
         ball.mass = meets / (1 - meets / mass);
@@ -113,9 +126,10 @@ struct Measured {
     double fragments = 0;           // of each
 };
 
-Measured measure(const Target& target, uint32_t copies, double fragments) {
+// `room`: for so many times as many sites, of which rings have some beyond the rim.
+Measured measure(const Target& target, uint32_t copies, double fragments, double room = 1) {
     Measured sum;
-    const auto events = breaksOf(hits(target, copies, fragments), roomFor(copies, fragments));
+    const auto events = breaksOf(hits(target, copies, fragments), roomFor(copies, room * fragments));
     EXPECT_EQ(events.size(), copies);
     for (const gpu::BreakEvent& event : events) {
         sum.afforded += double{event.blow.z};
@@ -135,11 +149,15 @@ struct Hit {
 void expectCracksToCostTheirShare(const std::vector<Hit>& all) {
     double least = 1e30, most = 0;
     for (const Hit& hit : all) {
-        const Measured found = measure(hit.target, hit.copies, hit.fragments);
+        const bool radial = hit.target.pattern == brittle::BreakPattern::Radial;
+        const Measured found = measure(hit.target, hit.copies, hit.fragments, radial ? 1.2 : 1);
         EXPECT_NEAR(found.spent / found.afforded, 1, 0.15) << hit.fragments << " of " << hit.target.half_depth;
         const brittle::Material& card = *brittle::findMaterial(hit.target.material);
         const double joules = found.afforded / hit.copies / card.eta;
-        EXPECT_NEAR(found.fragments / brittle::expectedFragments(card, formOf(hit.target), joules), 1, 0.2);
+        const double expected = brittle::expectedFragments(card, formOf(hit.target), joules, spreadOf(hit.target.pattern));
+        if (!radial) {
+            EXPECT_NEAR(found.fragments / expected, 1, 0.2);
+        }
         least = std::min(least, found.afforded / hit.copies);
         most = std::max(most, found.afforded / hit.copies);
     }
@@ -170,6 +188,49 @@ TEST(CrackArea, OfPanesIsWhatTheBlowPaysFor) {
                                   {paneOf(1, 0.006), 3, 150},
                                   {paneOf(1.8, 0.012), 1, 1000}});
 }
+
+using brittle::BreakPattern, brittle::Double3;
+
+TEST(CrackArea, OfCubesThatBreakAsInThePaperIsWhatTheBlowPaysFor) {
+    const auto paper = [](double edge) { return brokenBy(BreakPattern::Paper, cubeOf(edge, "concrete")); };
+    expectCracksToCostTheirShare({{paper(0.1), 24, 3},
+                                  {paper(0.1), 12, 12},
+                                  {paper(0.3), 12, 12},
+                                  {paper(0.3), 4, 60},
+                                  {paper(1), 2, 200},
+                                  {paper(1), 1, 1000}});
+}
+
+TEST(CrackArea, OfPanesThatBreakAsInThePaperIsWhatTheBlowPaysFor) {
+    const auto paper = [](double edge, double thickness) { return brokenBy(BreakPattern::Paper, paneOf(edge, thickness)); };
+    expectCracksToCostTheirShare({{paper(0.12, 0.004), 24, 3},
+                                  {paper(0.3, 0.004), 12, 12},
+                                  {paper(0.6, 0.004), 6, 40},
+                                  {paper(1, 0.006), 3, 150},
+                                  {paper(3, 0.016), 1, 1000}});
+}
+
+TEST(CrackArea, OfPanesThatBreakInSpokesAndRingsIsWhatTheBlowPaysFor) {
+    const auto radial = [](double edge, double thickness) { return brokenBy(BreakPattern::Radial, paneOf(edge, thickness)); };
+    expectCracksToCostTheirShare({{radial(0.12, 0.004), 24, 3},
+                                  {radial(0.3, 0.004), 24, 12},
+                                  {radial(0.6, 0.004), 12, 40},
+                                  {radial(1, 0.006), 4, 150},
+                                  {radial(1.8, 0.012), 1, 1000}});
+}
+
+void expectShareWhereverHit(BreakPattern pattern, double room) {
+    for (const double fragments : {12.0, 40.0, 120.0}) {
+        const auto copies = static_cast<uint32_t>(250 / (fragments + 5));
+        for (const Double3& off : {Double3{0.16, 0.08, 0}, Double3{0.36, 0, 0}, Double3{0.36, 0.36, 0}}) {
+            const Measured found = measure(brokenBy(pattern, paneOf(0.8, 0.004), off), copies, fragments, room);
+            EXPECT_NEAR(found.spent / found.afforded, 1, 0.15) << fragments << " at " << off[0] << ", " << off[1];
+        }
+    }
+}
+
+TEST(CrackArea, OfPanesInSpokesAndRingsIsWhatTheBlowPaysForWhereverItIs) { expectShareWhereverHit(BreakPattern::Radial, 4); }
+TEST(CrackArea, OfPanesAsInThePaperIsWhatTheBlowPaysForWhereverItIs) { expectShareWhereverHit(BreakPattern::Paper, 1.5); }
 
 TEST(CrackArea, IsLessWhereTheBudgetOfABodyEndsAndTheHostIsTold) {
     const Target pane = paneOf(1, 0.004);

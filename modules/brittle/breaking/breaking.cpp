@@ -69,7 +69,7 @@ public:
                                   static_cast<uint32_t>(s.settings.breaking_seed)};
         s.record.runGroups("admit_breaking", 1, admit,
                            {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
-                            l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args});
+                            l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices});
         s.record.commands().endLabel();
     }
 

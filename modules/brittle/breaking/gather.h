@@ -39,7 +39,7 @@ void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers&
                   engine::BufferView vertices);
 
 // After that: `raw_sites`, three words each on the grids of their objects in their tiles, and `placed`, a word each, 0 for a
-// site that found no place. Wants COUNT_ASKED_SITES published. Densities are those of Pattern::Impact.
+// site that found no place. Wants COUNT_ASKED_SITES published. How they lie is said by their object's SITES_*.
 void recordBreakingSites(Recorder& record, const GatherBuffers& b, engine::BufferView breaking, engine::BufferView raw_sites,
                          engine::BufferView placed);
 

@@ -1,5 +1,7 @@
 #include "modules/brittle/effects/fragment_count.h"
 
+#include "modules/brittle/fracture/pattern.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,21 +16,30 @@ double squared(double x) { return x * x; }
 // Cells that are as wide as the plate is thick: the plate's law holds for no more.
 double mostInPlate(const BodyForm& form) { return squared(form.side / form.thickness); }
 
-double crowdingOf(double in_all, double more, double count, Spread spread) {
-    return spread == Spread::Even ? 1 : in_all + more / std::sqrt(count);
+struct Crowding {
+    double few, more;          // about the blow
+    double first, falls, most; // of the paper's
+};
+constexpr Crowding kInSolid = {BLOW_IN_SOLID, BLOW_IN_SOLID_MORE, PAPER_IN_SOLID, PAPER_IN_SOLID_FALLS, PAPER_IN_SOLID_MOST};
+constexpr Crowding kInPlate = {BLOW_IN_PLATE, BLOW_IN_PLATE_MORE, PAPER_IN_PLATE, PAPER_IN_PLATE_FALLS, PAPER_IN_PLATE_MOST};
+
+double crowdingOf(const Crowding& of, double count, Spread spread, double favor) {
+    if (spread == Spread::Even) return 1;
+    if (spread == Spread::AboutBlow) return of.few + of.more / std::sqrt(count);
+    return 1 - favor * (1 - std::min(of.most, of.first * std::pow(count, -of.falls)));
 }
 
-double cracksOfSolid(const BodyForm& form, double count, Spread spread) {
+double cracksOfSolid(const BodyForm& form, double count, Spread spread, double favor) {
     const double square = squared(std::cbrt(form.volume));
     const double bulk = CELL_SURFACE / 2 * square * (std::cbrt(count) - 1 / count);
     const double rim = SOLID_RIM * std::max(form.surface, 6 * square) * (1 - 1 / count);
-    return crowdingOf(BLOW_IN_SOLID, BLOW_IN_SOLID_MORE, count, spread) * bulk - rim;
+    return crowdingOf(kInSolid, count, spread, favor) * bulk - rim;
 }
 
-double cracksOfPlate(const BodyForm& form, double count, Spread spread) {
+double cracksOfPlate(const BodyForm& form, double count, Spread spread, double favor) {
     const double wall = form.side * form.thickness;
     const double bulk = CELL_OUTLINE / 2 * wall * (std::sqrt(count) - 1 / count);
-    return crowdingOf(BLOW_IN_PLATE, BLOW_IN_PLATE_MORE, count, spread) * bulk - PLATE_RIM * 4 * wall * (1 - 1 / count);
+    return crowdingOf(kInPlate, count, spread, favor) * bulk - PLATE_RIM * 4 * wall * (1 - 1 / count);
 }
 
 } // namespace
@@ -44,20 +55,21 @@ BodyForm formOf(double volume, double surface) {
 
 bool isThin(const BodyForm& form) { return THIN * form.thickness < form.side; }
 
-double crackAreaOf(const BodyForm& form, double count, Spread spread) {
+double crackAreaOf(const BodyForm& form, double count, Spread spread, double favor) {
     if (count <= 1) return 0;
-    if (!isThin(form)) return std::max(0.0, cracksOfSolid(form, count, spread));
-    const double plate = cracksOfPlate(form, std::min(count, mostInPlate(form)), spread);
-    return count <= mostInPlate(form) ? plate : std::max(plate, cracksOfSolid(form, count, spread));
+    if (!isThin(form)) return std::max(0.0, cracksOfSolid(form, count, spread, favor));
+    const double plate = cracksOfPlate(form, std::min(count, mostInPlate(form)), spread, favor);
+    return count <= mostInPlate(form) ? plate : std::max(plate, cracksOfSolid(form, count, spread, favor));
 }
 
 // By halving: the law has no inverse that could be written down.
 double expectedFragments(const Material& material, const BodyForm& form, double joules, Spread spread) {
     const double area = material.eta * joules / material.fracture_energy;
+    const double favor = favorOf(joules);
     double low = 0, high = std::log2(kMost);
     for (int k = 0; k < 60; ++k) {
         const double middle = (low + high) / 2;
-        (crackAreaOf(form, std::exp2(middle), spread) <= area ? low : high) = middle;
+        (crackAreaOf(form, std::exp2(middle), spread, favor) <= area ? low : high) = middle;
     }
     return std::exp2(low);
 }
@@ -74,9 +86,19 @@ uint32_t fragmentCount(const Material& material, const BodyForm& form, double jo
     return static_cast<uint32_t>(std::min({count, std::floor(roomForFragments(material, form)), most}));
 }
 
+// How crowded the paper's sites are depends on the energy, which decides by halving.
 double energyForFragments(const Material& material, const BodyForm& form, double count, Spread spread) {
-    const double area = crackAreaOf(form, count, spread);
-    return area > 0 ? material.fracture_energy * area / material.eta : 0;
+    const auto costs = [&](double favor) {
+        return material.fracture_energy * crackAreaOf(form, count, spread, favor) / material.eta;
+    };
+    if (!(costs(0) > 0)) return 0;
+    if (spread != Spread::Paper || material.eta == 0) return costs(0);
+    double low = 0, high = costs(0);
+    for (int k = 0; k < 60; ++k) {
+        const double middle = (low + high) / 2;
+        (middle < costs(favorOf(middle)) ? low : high) = middle;
+    }
+    return high;
 }
 
 } // namespace brittle

@@ -49,8 +49,8 @@ constexpr auto joined(const std::array<SceneKey, Sizes>&... parts) {
 
 constexpr std::string_view kShapes[] = {"box", "ball", "hull", "mesh", "plane"};
 constexpr std::string_view kBodyShapes[] = {"box", "ball", "hull", "mesh"};
-constexpr std::string_view kPatterns[] = {"uniform", "impact", "paper"};
-constexpr std::string_view kBreakPatterns[] = {"impact", "uniform", "radial"};
+constexpr std::string_view kPatterns[] = {"uniform", "impact", "paper", "radial"};
+constexpr std::string_view kBreakPatterns[] = {"impact", "uniform", "radial", "paper"};
 constexpr std::string_view kSolvers[] = {"soft", "hard"};
 constexpr std::string_view kAxes[] = {"all", "fixed"};
 constexpr std::string_view kMaterials[] = {"glass", "porcelain", "concrete", "brick", "ice", "stone"};
@@ -227,7 +227,9 @@ constexpr auto kBodyKeys = joined(
         {"mass", at<&BodyDescription::mass>, above(0, 1e13), "kg", "instead of density"},
         {"material", at<&BodyDescription::material>, oneOfOrOwn(kMaterials), "", "that it breaks as; without one it does not"},
         {"break_pattern", at<&BodyDescription::break_pattern>, oneOf(kBreakPatterns), "",
-         "how its fragments lie: about the blow; evenly; or, of what is thin and flat, in spokes and rings about the blow"},
+         "how its fragments lie: about the blow; evenly; of what is thin and flat, in spokes and rings about the blow; or as "
+         "the "
+         "paper has them, about the middle and drawn towards the blow"},
         {"fixed", at<&BodyDescription::fixed>, kAnything, "",
          "it does not move, as a pane in its frame; it breaks as others do, and its fragments move"},
     }),
