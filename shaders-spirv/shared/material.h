@@ -21,8 +21,8 @@ GPU_NAMESPACE_BEGIN
 #define BLOW_IN_SOLID_MORE 0.2
 #define BLOW_IN_PLATE 0.86
 #define BLOW_IN_PLATE_MORE 0.25
-// The same among sites as the paper has them, where all are the nearest of eight candidates: FIRST over a power of the count, MOST
-// at most.
+// The same among sites as the paper has them, where all are the nearest of eight candidates: FIRST over a power of the count,
+// MOST at most.
 #define PAPER_IN_SOLID 1.45
 #define PAPER_IN_SOLID_FALLS 0.115
 #define PAPER_IN_SOLID_MOST 0.97

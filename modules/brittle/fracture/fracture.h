@@ -68,8 +68,9 @@ public:
     // bit. Errors: BadInput (another group size).
     static engine::Result<std::unique_ptr<Fracture>> create(engine::Device& device, uint32_t group_size = 0);
     virtual ~Fracture() = default;
-    // Errors: BadInput (no sites, sites too far away; radial_sites.h), Capacity (names pool and what it lacked), Device (also where it
-    // lacks doubles that were asked for), Internal (signs that contradict each other: only at less than exact precision).
+    // Errors: BadInput (no sites, sites too far away; radial_sites.h), Capacity (names pool and what it lacked), Device (also
+    // where it lacks doubles that were asked for), Internal (signs that contradict each other: only at less than exact
+    // precision).
     virtual engine::Result<FractureResult> shatter(const Mesh& mesh, const MeshTopology& topology,
                                                    const FractureOptions& options) = 0;
     // Breaks up to 256 objects by one recording: a result for each, as shatter would have it of each alone, but for the order

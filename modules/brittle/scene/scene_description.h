@@ -54,7 +54,8 @@ struct SurfaceDescription {
     bool operator==(const SurfaceDescription&) const = default;
 };
 
-// How the fragments of a body lie: about the blow; evenly; in a plate in sectors and rings about the blow; as the paper has them.
+// How the fragments of a body lie: about the blow; evenly; in a plate in sectors and rings about the blow; as the paper has
+// them.
 enum class BreakPattern : uint8_t { Impact, Uniform, Radial, Paper };
 
 struct BodyDescription {
