@@ -21,6 +21,8 @@ struct Picture {
     }
 };
 
+// As a PNG file.
+std::string encodePng(const Picture& picture);
 // Written beside the target and moved into its place, so that no half picture is ever seen.
 Result<void> writePng(const Picture& picture, const std::string& path);
 

@@ -16,8 +16,6 @@ using brittle::FragmentSet;
 using brittle::operator+; // of arrays, which argument-dependent lookup does not find
 using brittle::operator*;
 
-constexpr uint32_t kWidth = 1600, kHeight = 1200;
-
 // Moves the fragments apart and the whole to unit size: cameras and depth buffers work best there.
 class Stage {
 public:
@@ -68,7 +66,8 @@ std::vector<gpu::DrawCommand> drawCommands(const FragmentSet& set) {
     return commands;
 }
 
-engine::Result<engine::Picture> draw(engine::Device& device, const FragmentSet& set, const Stage& stage) {
+engine::Result<engine::Picture> draw(engine::Device& device, const FragmentSet& set, const Stage& stage,
+                                     const PictureSize& size) {
     const auto vertices = drawnBuffer(device, set.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     const auto indices = drawnBuffer(device, set.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     const std::vector<gpu::DrawCommand> draws = drawCommands(set);
@@ -76,18 +75,23 @@ engine::Result<engine::Picture> draw(engine::Device& device, const FragmentSet& 
     const auto matrices = drawnBuffer(device, stage.matrices(), 0);
     for (const auto* buffer : {&vertices, &indices, &commands, &matrices})
         if (!*buffer) return buffer->error();
-    auto renderer = engine::Renderer::create(device, kWidth, kHeight);
+    auto renderer = engine::Renderer::create(device, size.width, size.height);
     if (!renderer) return renderer.error();
     const auto camera = engine::frameBounds(brittle::toFloat(stage.bounds().lower), brittle::toFloat(stage.bounds().upper),
-                                            static_cast<float>(kWidth) / kHeight);
+                                            static_cast<float>(size.width) / static_cast<float>(size.height));
     return (*renderer)->draw({*vertices, *indices, *commands, *matrices, static_cast<uint32_t>(draws.size())}, camera);
 }
 
 } // namespace
 
+engine::Result<engine::Picture> pictureOf(engine::Device& device, const FragmentSet& fragments, double explode,
+                                          const PictureSize& size) {
+    return draw(device, fragments, Stage(fragments, explode), size);
+}
+
 engine::Result<void> drawFragments(engine::Device& device, const FragmentSet& fragments, double explode,
                                    const std::filesystem::path& path) {
-    const auto picture = draw(device, fragments, Stage(fragments, explode));
+    const auto picture = pictureOf(device, fragments, explode);
     if (!picture) return picture.error();
     return engine::writePng(*picture, path.string());
 }
