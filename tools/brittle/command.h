@@ -19,7 +19,8 @@ void addDoctor(CLI::App& app, int& exit_code);
 void addScenes(CLI::App& app, int& exit_code);
 void addPlan(CLI::App& app, int& exit_code);
 void addSimulate(CLI::App& app, int& exit_code);
-void addBench(CLI::App& app, int& exit_code); // in tools/bench
+void addBench(CLI::App& app, int& exit_code);    // in tools/bench
+void addAccuracy(CLI::App& app, int& exit_code); // in tools/accuracy
 
 // A check of a name that may not be empty.
 std::string someText(const std::string& text);

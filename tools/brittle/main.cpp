@@ -8,8 +8,8 @@
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli::addDoctor, cli::addScenes,
-                                         cli::addSimulate, cli::addPlan,    cli::addBench};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli::addDoctor,   cli::addScenes,
+                                         cli::addSimulate, cli::addPlan,    cli::addAccuracy, cli::addBench};
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -18,6 +18,7 @@ constexpr const char* kFooter =
     "  brittle doctor vase.stl\n"
     "  brittle simulate card_house -o house.glb\n"
     "  brittle plan card_house --measure\n"
+    "  brittle accuracy --quick -o out/accuracy\n"
     "\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
 

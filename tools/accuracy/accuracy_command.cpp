@@ -1,0 +1,126 @@
+// brittle accuracy: its options, and the files it writes.
+#include "tools/accuracy/fracture_run.h"
+#include "tools/accuracy/report.h"
+#include "tools/accuracy/sweep.h"
+#include "tools/brittle/command.h"
+#include "tools/brittle/interrupt.h"
+#include "tools/brittle/model.h"
+#include "tools/brittle/progress.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace cli {
+namespace {
+
+using engine::Result;
+
+struct AccuracyOptions {
+    accuracy::Options sweep;
+    std::string folder = "accuracy", from, device;
+};
+
+// The three files, which are there all or not at all.
+class Outputs {
+public:
+    Result<void> open(const std::filesystem::path& folder, bool with_data) {
+        std::error_code failed;
+        std::filesystem::create_directories(folder, failed);
+        if (failed)
+            return engine::Error{engine::ErrorCode::BadInput,
+                                 folder.string() + ": cannot be made: " + failed.message() + "; give another folder with -o"};
+        if (with_data)
+            for (const char* name : {"results.json", "results.csv"})
+                if (auto added = add(folder / name); !added) return added;
+        return add(folder / "report.html");
+    }
+    // The page is the last of them.
+    Result<void> write(const accuracy::Results& results) {
+        const bool with_data = files_.size() > 1;
+        std::vector<std::string> texts;
+        if (with_data) texts = {encodeResults(results), encodeCsv(results)};
+        texts.push_back(encodeReport(results));
+        for (size_t k = 0; k < files_.size(); ++k)
+            if (auto written = files_[k].write(texts[k]); !written) return written;
+        for (brittle::OutputFile& file : files_)
+            if (auto committed = file.commit(); !committed) return committed;
+        return {};
+    }
+
+private:
+    Result<void> add(const std::filesystem::path& path) {
+        auto file = createOutput(path.string());
+        if (!file) return file.error();
+        files_.push_back(std::move(*file));
+        return {};
+    }
+    std::vector<brittle::OutputFile> files_;
+};
+
+Result<void> checkModels(const std::vector<std::string>& models) {
+    for (const std::string& name : models)
+        if (const auto model = accuracy::soundModel(name); !model) return model.error();
+    return {};
+}
+
+int show(const accuracy::Results& results, Outputs& outputs, const std::string& folder) {
+    if (auto written = outputs.write(results); !written) return fail(written.error());
+    clearProgress();
+    std::printf("%s\nreport     %s\n", usefulTable(results).c_str(), (std::filesystem::path(folder) / "report.html").c_str());
+    return kOk;
+}
+
+int rewritePage(const AccuracyOptions& options) {
+    const auto results = accuracy::readResults(options.from);
+    if (!results) return fail(results.error());
+    Outputs outputs;
+    if (auto opened = outputs.open(options.folder, false); !opened) return fail(opened.error());
+    return show(*results, outputs, options.folder);
+}
+
+// What may be wrong is looked for before anything is measured, which takes minutes.
+int measureAnew(const AccuracyOptions& options) {
+    if (auto sound = checkModels(options.sweep.models); !sound) return fail(sound.error());
+    const auto device = engine::Device::create({.select = options.device});
+    if (!device) return fail(device.error());
+    Outputs outputs;
+    if (auto opened = outputs.open(options.folder, true); !opened) return fail(opened.error());
+    const auto results = accuracy::measureAll(**device, options.sweep);
+    return results ? show(*results, outputs, options.folder) : fail(results.error());
+}
+
+int runAccuracy(const AccuracyOptions& options) { return options.from.empty() ? measureAnew(options) : rewritePage(options); }
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  brittle accuracy --quick -o out/accuracy\n"
+    "  brittle accuracy vase.stl rock.obj -o out/accuracy\n"
+    "  brittle accuracy --from out/accuracy/results.json -o out/page\n"
+    "\n"
+    "DIR gets results.json with every measurement, results.csv with a row for each, and report.html, one page that needs no\n"
+    "network. Every knob is turned alone, and some two at a time; all settings take turns in every round, so that a machine\n"
+    "that is busy for a while is busy for all of them. Times are medians with their quartiles. Errors are against references\n"
+    "in double precision and closed forms. On stdout stand the most useful lines of the price list.";
+
+} // namespace
+
+void addAccuracy(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("accuracy", "Measure what accuracy costs in time, and show it on a page.");
+    command->footer(kFooter);
+    auto options = std::make_shared<AccuracyOptions>();
+    CLI::Option* models = command->add_option("MODEL", options->sweep.models, std::string("to break besides: ") + kModelHelp);
+    CLI::Option* quick = command->add_flag("--quick", options->sweep.is_quick,
+                                           "fewer sites, bodies and rounds: minutes, not a quarter of an hour and more");
+    command->add_option("-o,--output", options->folder, "the folder to write to; it is made where there is none")
+        ->option_text("DIR [accuracy]")
+        ->check(someText);
+    command->add_option("--from", options->from, "measure nothing: write the page of these results.json")
+        ->option_text("FILE")
+        ->check(someText)
+        ->excludes(models)
+        ->excludes(quick);
+    addDeviceOptions(*command, options->device, options->sweep.group_size);
+    command->callback([options, &exit_code] { exit_code = runAccuracy(*options); });
+}
+
+} // namespace cli

@@ -1,0 +1,41 @@
+// The sweep over all knobs: one at a time and useful pairs, on workloads that stay the same, a turn each in every round.
+#pragma once
+
+#include "engine/device.h"
+#include "tools/accuracy/progress_estimate.h"
+#include "tools/accuracy/results.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace accuracy {
+
+struct Options {
+    bool is_quick = false;
+    std::vector<std::string> models; // files or builtin:NAME, besides the workloads that are always there
+    uint32_t group_size = 0;         // lanes of a workgroup; 0: the usual number
+    uint32_t rounds() const { return is_quick ? 5 : 9; }
+};
+
+struct Sweep {
+    engine::Device& device;
+    const Options& options;
+    ProgressEstimate& progress;
+    Results& results;
+};
+
+// Each adds its workloads, kinds of errors and measurements.
+engine::Result<void> sweepFracture(Sweep& sweep);
+engine::Result<void> sweepColliders(Sweep& sweep);
+engine::Result<void> sweepPatterns(Sweep& sweep);
+engine::Result<void> sweepDynamics(Sweep& sweep);
+// The paper's two figures: time against the number of sites, and the share of each part.
+engine::Result<void> measureFigures(Sweep& sweep);
+// The same under the cheapest and the dearest setting, drawn.
+engine::Result<void> drawPairs(Sweep& sweep);
+
+// All of it, in this order, and what follows from it. Errors: of the device, of models.
+engine::Result<Results> measureAll(engine::Device& device, const Options& options);
+
+} // namespace accuracy
