@@ -12,6 +12,8 @@ packages=(
   libassimp-dev libcli11-dev libeigen3-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
   # films; only brittle simulate -o FILE.mp4 and its test ask for it
   ffmpeg
+  # the tests of the page of brittle accuracy
+  chromium fonts-dejavu-core
   # tests, and the peers of the bench
   libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libbullet-dev libcgal-dev libgmp-dev libmpfr-dev
   voro++-dev
