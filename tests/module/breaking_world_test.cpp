@@ -219,37 +219,6 @@ TEST(BreakingWorld, FragmentsBreakAgainWhereThatIsAskedFor) {
     }
 }
 
-struct TooSmall {
-    const char* what;
-    brittle::BreakingBudget budget;
-    uint32_t why = 0;
-    std::array<bool, POOLS> lacks = {};
-};
-
-// Every pool to the brim while something breaks.
-TEST(BreakingWorld, WhatThereIsNoRoomForStaysWholeSaysWhyAndIsStoppedAsAnyBody) {
-    const TooSmall kPools[] = {
-        {"bodies and pieces", {.fragments = 20, .faces = 40000, .triangles = 90000}, WHOLE_NO_ROOM, {true, true, false, false}},
-        {"faces", {.faces = 100}, WHOLE_NO_ROOM, {false, false, true, false}},
-        {"triangles", {.triangles = 300}, WHOLE_NO_ROOM, {false, false, false, true}},
-        {"all", {.fragments = 3}, WHOLE_NO_ROOM, {true, true, true, true}},
-        {"triangles of a step", {.step_triangles = 8}, WHOLE_TOO_LARGE, {}}};
-    for (const TooSmall& pool : kPools) {
-        const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass")}), {.breaking = pool.budget});
-        const auto events = stepUntilItBreaks(*world, 60);
-        ASSERT_EQ(events.size(), 1u) << pool.what;
-        EXPECT_EQ(events[0].made.x, 0u) << pool.what;
-        EXPECT_EQ(events[0].made.y, pool.why) << pool.what;
-        const uint32_t lacked[POOLS] = {events[0].lacked.x, events[0].lacked.y, events[0].lacked.z, events[0].lacked.w};
-        for (size_t k = 0; k < POOLS; ++k)
-            EXPECT_EQ(lacked[k] > 0, pool.lacks[k]) << pool.what << ", pool " << k << " lacked " << lacked[k];
-        step(*world, 60);
-        const auto bodies = presentBodies(*world);
-        ASSERT_EQ(bodies.size(), 1u) << pool.what;
-        EXPECT_NEAR(brittle::poseOf(bodies[0]).place[1], kBall, 0.02) << pool.what;
-    }
-}
-
 // What stayed whole for want of room breaks once there is some: nothing is lost by the attempt.
 TEST(BreakingWorld, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
     brittle::WorldBudget budget;

@@ -36,6 +36,10 @@ struct ContractReport {
     uint32_t points_misplaced = 0;     // in a fragment whose site is not the nearest
     std::vector<std::string> problems; // one line for everything past its limit; none: the contract holds
     bool holds() const { return problems.empty(); }
+    // Edges, triangles, fragments and points that are not as they should be; sizes do not count.
+    uint64_t brokenPromises() const {
+        return open_edges + unpaired_inner + not_positive + not_connected + claimed_volume_off + points_wrong + points_misplaced;
+    }
     std::string text() const;
 };
 

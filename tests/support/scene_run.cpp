@@ -1,29 +1,12 @@
 #include "tests/support/scene_run.h"
 
-#include "modules/brittle/dynamics/pose.h"
-#include "modules/brittle/dynamics/scene_settings.h"
-#include "modules/brittle/mesh/vector_math.h"
+#include "modules/brittle/scene/library/builtin_scenes.h"
 #include "tests/engine/test_device.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace support {
 namespace {
-
-using brittle::Double3;
-using brittle::operator+, brittle::operator-, brittle::operator*, brittle::operator+=;
-
-bool hasCells(const brittle::SceneDescription& scene) {
-    return std::ranges::any_of(scene.bodies, [](const brittle::BodyDescription& b) { return b.shape.cells.sites != 0; });
-}
-
-Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
-
-double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
 
 brittle::SceneDescription builtin(const std::string& name) {
     auto scene = brittle::makeBuiltinScene(name);
@@ -35,138 +18,16 @@ brittle::SceneDescription builtin(const std::string& name) {
 
 SceneRun::SceneRun(const std::string& name) : SceneRun(builtin(name)) {}
 
-SceneRun::SceneRun(const brittle::SceneDescription& scene) : scene_(scene) {
-    std::unique_ptr<brittle::Fracture> fracture;
-    if (hasCells(scene_)) {
-        auto made = brittle::Fracture::create(engine_test::device());
-        if (made) fracture = std::move(*made);
-    }
-    auto contents = brittle::contentsOf(scene_, ".", fracture.get());
-    const auto settings = brittle::settingsOf(scene_);
-    if (!contents || !settings) {
-        ADD_FAILURE() << (contents ? settings.error().message : contents.error().message);
-        return;
-    }
-    contents_ = std::move(*contents);
-    auto world = brittle::World::create(engine_test::device(), contents_, *settings, brittle::budgetOf(scene_));
-    if (!world) ADD_FAILURE() << world.error().message;
-    if (!world) return;
-    world_ = std::move(*world);
-    first_ = last_ = now_ = contents_.bodies;
+SceneRun::SceneRun(const brittle::SceneDescription& scene) : MeasuredScene(scene) {
+    const auto made = make(engine_test::device());
+    EXPECT_TRUE(made) << made.error().message;
+    is_there_ = static_cast<bool>(made);
 }
 
 void SceneRun::step(uint32_t steps) {
-    ASSERT_NE(world_, nullptr);
-    const auto done = world_->step(steps);
+    ASSERT_TRUE(is_there_);
+    const auto done = advance(steps);
     ASSERT_TRUE(done) << done.error().message;
-    auto bodies = world_->bodies();
-    ASSERT_TRUE(bodies);
-    last_ = std::exchange(now_, std::move(*bodies));
-    made_ += steps;
-}
-
-Double3 SceneRun::place(size_t body) const { return poseOf(now_[body]).place; }
-Double3 SceneRun::way(size_t body) const { return poseOf(now_[body]).place - poseOf(first_[body]).place; }
-double SceneRun::speed(size_t body) const { return sizeOf(xyz(now_[body].velocity)); }
-
-double SceneRun::fastest() const {
-    double most = 0;
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) most = std::max(most, speed(b));
-    return most;
-}
-
-double SceneRun::furthestWay() const {
-    double most = 0;
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) most = std::max(most, sizeOf(way(b)));
-    return most;
-}
-
-double SceneRun::meanWay() const {
-    double sum = 0, moving = 0;
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) {
-            sum += sizeOf(way(b));
-            ++moving;
-        }
-    return moving == 0 ? 0 : sum / moving;
-}
-
-double SceneRun::kineticEnergy() const {
-    double sum = 0;
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b))
-            sum += 0.5 * speed(b) * speed(b) / now_[b].offset.w + 0.5 * brittle::dot(xyz(now_[b].momentum), xyz(now_[b].spin));
-    return sum;
-}
-
-Double3 SceneRun::momentum() const {
-    Double3 sum = {0, 0, 0};
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) sum += (1.0 / now_[b].offset.w) * xyz(now_[b].velocity);
-    return sum;
-}
-
-double SceneRun::momentumInAll() const {
-    double sum = 0;
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) sum += speed(b) / now_[b].offset.w;
-    return sum;
-}
-
-double SceneRun::angularMomentumInAll() const {
-    double sum = 0;
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b))
-            sum += sizeOf(xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity)));
-    return sum;
-}
-
-Double3 SceneRun::angularMomentum() const {
-    Double3 sum = {0, 0, 0};
-    for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) sum += xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity));
-    return sum;
-}
-
-bool SceneRun::isFinite() const {
-    return std::ranges::all_of(now_, [](const gpu::BodyState& b) {
-        const auto finite = [](const gpu::vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
-        return finite(b.offset) && finite(b.turn) && finite(b.velocity) && finite(b.spin) && finite(b.momentum);
-    });
-}
-
-std::vector<reference::SolidBox> SceneRun::sweptBoxes(double more) const {
-    std::vector<reference::SolidBox> boxes;
-    const double margin = 0.5 * scene_.step.margin + more;
-    for (size_t p = 0; p < contents_.pieces.size(); ++p) {
-        const uint32_t body = contents_.pieces[p].ids.y;
-        const gpu::BodyState& state = last_[body];
-        reference::Bounds bounds;
-        for (const reference::Point& v : pieceInWorld(contents_, p, poseOf(state)).vertices) {
-            bounds.grow(v);
-            if (moves(body)) bounds.grow(v + scene_.step.dt * xyz(state.velocity));
-        }
-        reference::SolidBox box = {.body = body, .fixed = !moves(body)};
-        const bool is_plane = (contents_.pieces[p].ids.z & PIECE_PLANE) != 0; // endless, but straight up
-        const Double3 up = brittle::turnedBy(poseOf(state).turn, {0, 1, 0});
-        for (size_t axis = 0; axis < 3; ++axis) {
-            const double rounding = 1e-6 * std::max(std::fabs(bounds.lower[axis]), std::fabs(bounds.upper[axis]));
-            const double beyond = (is_plane && std::fabs(up[axis]) < 1 ? 2e6 : 0) + margin + (more > 0 ? rounding : 0);
-            box.low[axis] = bounds.lower[axis] - beyond;
-            box.high[axis] = bounds.upper[axis] + beyond;
-        }
-        boxes.push_back(box);
-    }
-    return boxes;
-}
-
-std::vector<double> SceneRun::overlaps() const {
-    std::vector<Pose> poses;
-    for (const gpu::BodyState& body : now_)
-        poses.push_back(poseOf(body));
-    return overlapsOf(contents_, poses);
 }
 
 } // namespace support

@@ -1,57 +1,22 @@
-// A built-in scene on the device, and what can be measured of it in double precision.
+// A scene on the tests' device. What fails there fails the test.
 #pragma once
 
-#include "modules/brittle/dynamics/scene_contents.h"
-#include "modules/brittle/scene/library/builtin_scenes.h"
-#include "tests/reference/boxes.h"
-#include "tests/support/body_overlaps.h"
+#include "tests/support/measured_scene.h"
 
-#include <memory>
 #include <string>
-#include <vector>
 
 namespace support {
 
-class SceneRun {
+class SceneRun : public MeasuredScene {
 public:
-    // Fails the test where the scene cannot be made.
-    explicit SceneRun(const std::string& name);
+    explicit SceneRun(const std::string& name); // of a built-in scene
     explicit SceneRun(const brittle::SceneDescription& scene);
 
-    const brittle::SceneDescription& scene() const { return scene_; }
-    brittle::World& world() { return *world_; }
-    void step(uint32_t steps); // and reads the bodies; fails the test where that fails
-    void finish() { step(scene_.step.steps - made_); }
-
-    size_t bodyCount() const { return now_.size(); }
-    bool moves(size_t body) const { return now_[body].offset.w != 0; }
-    const gpu::BodyState& state(size_t body) const { return now_[body]; }
-    brittle::Double3 place(size_t body) const;
-    brittle::Double3 way(size_t body) const; // since the beginning
-    double speed(size_t body) const;
-
-    // Over all bodies that move.
-    double fastest() const;
-    double furthestWay() const;
-    double meanWay() const;
-    double kineticEnergy() const;
-    brittle::Double3 momentum() const;
-    brittle::Double3 angularMomentum() const; // about the origin of the world
-    // Sums of the sizes of what each body has.
-    double momentumInAll() const;
-    double angularMomentumInAll() const;
-    bool isFinite() const;
-    // How deep pieces of different bodies lie in each other, the deepest last; pairs that do not overlap are left out.
-    std::vector<double> overlaps() const;
-    // Of each piece on its way in the last step, which was made alone, with the margin of the scene and so much more.
-    std::vector<reference::SolidBox> sweptBoxes(double more) const;
+    void step(uint32_t steps);
+    void finish() { step(stepsLeft()); }
 
 private:
-    brittle::SceneDescription scene_;
-    brittle::WorldContents contents_;
-    std::unique_ptr<brittle::World> world_;
-    std::vector<gpu::BodyState> first_, last_, now_;
-    uint32_t made_ = 0;
+    bool is_there_ = false;
 };
 
 } // namespace support

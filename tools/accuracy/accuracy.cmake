@@ -1,4 +1,5 @@
-# `brittle accuracy`: what accuracy costs in time. Its page and one example scene lie in the program.
+# `brittle accuracy`, what accuracy costs in time, and `brittle hard`, which shows its cases on the same page. The page and one
+# example scene lie in the program.
 set(accuracy_dir ${CMAKE_CURRENT_LIST_DIR})
 # What measurements are held against, and what they say: apart from the program, for tests.
 set(accuracy_judgment fracture_truth judge results results_json scene_truth)
@@ -23,7 +24,7 @@ if(TARGET brittle)
         "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_BUILD_TYPE}" -DOUTPUT=${version_header}
         -P ${accuracy_dir}/version.cmake)
 
-    file(GLOB accuracy_sources CONFIGURE_DEPENDS ${accuracy_dir}/*.cpp)
+    file(GLOB accuracy_sources CONFIGURE_DEPENDS ${accuracy_dir}/*.cpp ${accuracy_dir}/../hard/*.cpp)
     list(REMOVE_ITEM accuracy_sources ${accuracy_judgment})
     target_sources(brittle PRIVATE ${accuracy_sources} ${embedded})
     target_include_directories(brittle PRIVATE ${generated})

@@ -1,5 +1,6 @@
 // Colliders: how much larger than their fragments they are, by how many directions.
 #include "modules/brittle/mesh/vector_math.h"
+#include "tests/support/fragment_file.h"
 #include "tests/reference/convex.h"
 #include "tools/accuracy/fracture_run.h"
 #include "tools/accuracy/fracture_truth.h"
@@ -112,7 +113,7 @@ Result<void> sweepColliders(Sweep& sweep) {
         one.before = before;
         one.share = 1.0 / std::size(kWorkloads);
         before += one.share;
-        const double diagonal = reference::boundsOf(trianglesOf(one.model.mesh)).diagonal();
+        const double diagonal = reference::boundsOf(support::trianglesOf(one.model.mesh)).diagonal();
         FractureMeasures measures;
         measures.errors = [&](const brittle::FractureResult& r) { return colliderErrors(r.fragments, diagonal); };
         measures.time = timeOfColliders;

@@ -2,6 +2,7 @@
 
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/reference/contract.h"
+#include "tests/support/fragment_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,29 +55,6 @@ Triangles outlineOf(const Polyhedron& solid) {
         for (size_t k = 2; k < face.loop.size(); ++k)
             triangles.push_back({face.loop[0], face.loop[k - 1], face.loop[k]});
     return triangles;
-}
-
-reference::Piece pieceOf(const brittle::FragmentSet& set, const brittle::Fragment& fragment) {
-    reference::Piece piece;
-    piece.translation = set.center;
-    piece.site = fragment.site;
-    piece.cell = fragment.cell;
-    piece.volume = fragment.volume;
-    const uint32_t outer_end = fragment.first_index + fragment.outer_index_count;
-    for (uint32_t i = fragment.first_index; i < outer_end + fragment.inner_index_count; i += 3) {
-        Triangle triangle;
-        for (uint32_t k = 0; k < 3; ++k)
-            triangle[k] = positionOf(set.vertices[fragment.first_vertex + set.indices[i + k]]);
-        (i < outer_end ? piece.outer : piece.inner).push_back(triangle);
-    }
-    return piece;
-}
-
-reference::FragmentFile fileOf(const brittle::FragmentSet& set) {
-    reference::FragmentFile file;
-    for (const brittle::Fragment& fragment : set.fragments)
-        file.pieces.push_back(pieceOf(set, fragment));
-    return file;
 }
 
 double worstCellVolume(const FractureTruth& truth, const reference::FragmentFile& file) {
@@ -177,26 +155,11 @@ double turnedShare(const reference::FragmentFile& file) {
     return all > 0 ? turned / all : 0;
 }
 
-double brokenPromises(const reference::ContractReport& report) {
-    return static_cast<double>(report.open_edges + report.unpaired_inner + report.not_positive + report.not_connected +
-                               report.claimed_volume_off + report.points_wrong + report.points_misplaced);
-}
-
 } // namespace
-
-Triangles trianglesOf(const brittle::Mesh& mesh) {
-    Triangles triangles;
-    for (const brittle::Index3& t : mesh.triangles) {
-        Triangle& triangle = triangles.emplace_back();
-        for (size_t k = 0; k < 3; ++k)
-            triangle[k] = mesh.center + brittle::toDouble(mesh.positions[t[k]]);
-    }
-    return triangles;
-}
 
 FractureTruth truthOf(const brittle::Mesh& mesh, std::span<const brittle::Double3> sites) {
     FractureTruth truth;
-    truth.model = trianglesOf(mesh);
+    truth.model = support::trianglesOf(mesh);
     truth.sites.assign(sites.begin(), sites.end());
     truth.volume = reference::volumeOf(truth.model);
     truth.diagonal = reference::boundsOf(truth.model).diagonal();
@@ -215,7 +178,7 @@ FractureTruth truthOf(const brittle::Mesh& mesh, std::span<const brittle::Double
 }
 
 std::vector<MeasuredError> errorsOf(const FractureTruth& truth, const brittle::FractureResult& result) {
-    const reference::FragmentFile file = fileOf(result.fragments);
+    const reference::FragmentFile file = support::fragmentFile(result.fragments);
     reference::ContractLimits limits;
     limits.random_points = 50;
     limits.bisector_tests = 20'000'000;
@@ -223,7 +186,7 @@ std::vector<MeasuredError> errorsOf(const FractureTruth& truth, const brittle::F
     if (file.pieces.empty()) return {{kinds::kPromises.name, kMillion, kMillion / cells}};
     const reference::ContractReport report = reference::checkContract(file, truth.model, limits);
     std::vector<MeasuredError> errors = {
-        {kinds::kPromises.name, brokenPromises(report) * kMillion / cells, kMillion / cells},
+        {kinds::kPromises.name, static_cast<double>(report.brokenPromises()) * kMillion / cells, kMillion / cells},
         {kinds::kVolume.name, report.volume_error, kRounding},
         {kinds::kArea.name, report.area_error, kRounding},
         {kinds::kTurned.name, turnedShare(file), kTurnedByRounding},

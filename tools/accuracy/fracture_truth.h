@@ -26,6 +26,4 @@ extern const ErrorKind kVolume, kArea, kCellVolume, kCorners, kPromises, kNeighb
 // Of all kinds that the model allows.
 std::vector<MeasuredError> errorsOf(const FractureTruth& truth, const brittle::FractureResult& result);
 
-reference::Triangles trianglesOf(const brittle::Mesh& mesh); // model space
-
 } // namespace accuracy

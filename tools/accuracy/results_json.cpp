@@ -28,8 +28,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PicturePair, title, cheap_setting, dear_setti
                                    cheap, dear, marked)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LawBin, from, to, measured, law)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Law, title, quantity, law, source, count, distance, resolution, bins)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HardCase, name, setting, worst_kind, why, has_passed, worst_error, resolution, ms,
-                                   exact_tests)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HardCase, name, setting, why, worst_kind, unit, worst_error, allowed, has_passed,
+                                   is_known_shortfall, ms, exact_tests)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peer, name, workload, ms, errors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UsefulLine, text, measurement)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PartTime, part, seconds)

@@ -21,6 +21,7 @@ void addPlan(CLI::App& app, int& exit_code);
 void addSimulate(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code);    // in tools/bench
 void addAccuracy(CLI::App& app, int& exit_code); // in tools/accuracy
+void addHard(CLI::App& app, int& exit_code);     // in tools/hard
 
 // A check of a name that may not be empty.
 std::string someText(const std::string& text);

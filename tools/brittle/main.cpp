@@ -9,7 +9,7 @@
 namespace {
 
 constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli::addDoctor,   cli::addScenes,
-                                         cli::addSimulate, cli::addPlan,    cli::addAccuracy, cli::addBench};
+                                         cli::addSimulate, cli::addPlan,    cli::addAccuracy, cli::addHard, cli::addBench};
 
 constexpr const char* kFooter =
     "Examples:\n"

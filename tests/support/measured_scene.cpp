@@ -1,0 +1,159 @@
+#include "tests/support/measured_scene.h"
+
+#include "modules/brittle/dynamics/pose.h"
+#include "modules/brittle/dynamics/scene_settings.h"
+#include "modules/brittle/mesh/vector_math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace support {
+namespace {
+
+using brittle::Double3;
+using brittle::operator+, brittle::operator-, brittle::operator*, brittle::operator+=;
+
+bool hasCells(const brittle::SceneDescription& scene) {
+    return std::ranges::any_of(scene.bodies, [](const brittle::BodyDescription& b) { return b.shape.cells.sites != 0; });
+}
+
+Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
+
+double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
+
+} // namespace
+
+engine::Result<void> MeasuredScene::make(engine::Device& device) {
+    std::unique_ptr<brittle::Fracture> fracture;
+    if (hasCells(scene_)) {
+        auto made = brittle::Fracture::create(device);
+        if (!made) return made.error();
+        fracture = std::move(*made);
+    }
+    auto contents = brittle::contentsOf(scene_, ".", fracture.get());
+    if (!contents) return contents.error();
+    const auto settings = brittle::settingsOf(scene_);
+    if (!settings) return settings.error();
+    contents_ = std::move(*contents);
+    auto world = brittle::World::create(device, contents_, *settings, brittle::budgetOf(scene_));
+    if (!world) return world.error();
+    world_ = std::move(*world);
+    first_ = last_ = now_ = contents_.bodies;
+    return {};
+}
+
+engine::Result<void> MeasuredScene::advance(uint32_t steps) {
+    if (auto done = world_->step(steps); !done) return done;
+    auto bodies = world_->bodies();
+    if (!bodies) return bodies.error();
+    last_ = std::exchange(now_, std::move(*bodies));
+    made_ += steps;
+    return {};
+}
+
+Double3 MeasuredScene::place(size_t body) const { return poseOf(now_[body]).place; }
+Double3 MeasuredScene::way(size_t body) const { return poseOf(now_[body]).place - poseOf(first_[body]).place; }
+double MeasuredScene::speed(size_t body) const { return sizeOf(xyz(now_[body].velocity)); }
+
+double MeasuredScene::fastest() const {
+    double most = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) most = std::max(most, speed(b));
+    return most;
+}
+
+double MeasuredScene::furthestWay() const {
+    double most = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) most = std::max(most, sizeOf(way(b)));
+    return most;
+}
+
+double MeasuredScene::meanWay() const {
+    double sum = 0, moving = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) {
+            sum += sizeOf(way(b));
+            ++moving;
+        }
+    return moving == 0 ? 0 : sum / moving;
+}
+
+double MeasuredScene::kineticEnergy() const {
+    double sum = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b))
+            sum += 0.5 * speed(b) * speed(b) / now_[b].offset.w + 0.5 * brittle::dot(xyz(now_[b].momentum), xyz(now_[b].spin));
+    return sum;
+}
+
+Double3 MeasuredScene::momentum() const {
+    Double3 sum = {0, 0, 0};
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) sum += (1.0 / now_[b].offset.w) * xyz(now_[b].velocity);
+    return sum;
+}
+
+double MeasuredScene::momentumInAll() const {
+    double sum = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) sum += speed(b) / now_[b].offset.w;
+    return sum;
+}
+
+double MeasuredScene::angularMomentumInAll() const {
+    double sum = 0;
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b))
+            sum += sizeOf(xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity)));
+    return sum;
+}
+
+Double3 MeasuredScene::angularMomentum() const {
+    Double3 sum = {0, 0, 0};
+    for (size_t b = 0; b < now_.size(); ++b)
+        if (moves(b)) sum += xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity));
+    return sum;
+}
+
+bool MeasuredScene::isFinite() const {
+    return std::ranges::all_of(now_, [](const gpu::BodyState& b) {
+        const auto finite = [](const gpu::vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+        return finite(b.offset) && finite(b.turn) && finite(b.velocity) && finite(b.spin) && finite(b.momentum);
+    });
+}
+
+std::vector<reference::SolidBox> MeasuredScene::sweptBoxes(double more) const {
+    std::vector<reference::SolidBox> boxes;
+    const double margin = 0.5 * scene_.step.margin + more;
+    for (size_t p = 0; p < contents_.pieces.size(); ++p) {
+        const uint32_t body = contents_.pieces[p].ids.y;
+        const gpu::BodyState& state = last_[body];
+        reference::Bounds bounds;
+        for (const reference::Point& v : pieceInWorld(contents_, p, poseOf(state)).vertices) {
+            bounds.grow(v);
+            if (moves(body)) bounds.grow(v + scene_.step.dt * xyz(state.velocity));
+        }
+        reference::SolidBox box = {.body = body, .fixed = !moves(body)};
+        const bool is_plane = (contents_.pieces[p].ids.z & PIECE_PLANE) != 0; // endless, but straight up
+        const Double3 up = brittle::turnedBy(poseOf(state).turn, {0, 1, 0});
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double rounding = 1e-6 * std::max(std::fabs(bounds.lower[axis]), std::fabs(bounds.upper[axis]));
+            const double beyond = (is_plane && std::fabs(up[axis]) < 1 ? 2e6 : 0) + margin + (more > 0 ? rounding : 0);
+            box.low[axis] = bounds.lower[axis] - beyond;
+            box.high[axis] = bounds.upper[axis] + beyond;
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+std::vector<double> MeasuredScene::overlaps() const {
+    std::vector<Pose> poses;
+    for (const gpu::BodyState& body : now_)
+        poses.push_back(poseOf(body));
+    return overlapsOf(contents_, poses);
+}
+
+} // namespace support
