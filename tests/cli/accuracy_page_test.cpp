@@ -224,11 +224,13 @@ TEST_F(AccuracyPage, ShowsHardCasesWhereThereAreAny) {
     for (const char* setting : {"exact", "fast"})
         results["hard"].push_back({{"name", "lattice"},
                                    {"setting", setting},
-                                   {"worst_kind", "open edges"},
                                    {"why", ""},
-                                   {"has_passed", setting == std::string("exact")},
+                                   {"worst_kind", "open edges"},
+                                   {"unit", ""},
                                    {"worst_error", 3.0},
-                                   {"resolution", 1.0},
+                                   {"allowed", 0.0},
+                                   {"has_passed", setting == std::string("exact")},
+                                   {"is_known_shortfall", false},
                                    {"ms", 4.5},
                                    {"exact_tests", 12.0}});
     browser.open(pageOf(results));

@@ -78,6 +78,13 @@ int rewritePage(const AccuracyOptions& options) {
     return show(*results, outputs, options.folder);
 }
 
+// What `brittle hard` has left in the folder, if it was the same program on the same device.
+void keepHardCases(accuracy::Results& results, const std::filesystem::path& folder) {
+    auto before = accuracy::readResults(folder / "results.json");
+    if (!before || before->machine.commit != results.machine.commit || before->machine.device != results.machine.device) return;
+    results.hard = std::move(before->hard);
+}
+
 // What may be wrong is looked for before anything is measured, which takes minutes.
 int measureAnew(const AccuracyOptions& options) {
     if (auto sound = checkModels(options.sweep.models); !sound) return fail(sound.error());
@@ -85,8 +92,10 @@ int measureAnew(const AccuracyOptions& options) {
     if (!device) return fail(device.error());
     Outputs outputs;
     if (auto opened = outputs.open(options.folder, true); !opened) return fail(opened.error());
-    const auto results = accuracy::measureAll(**device, options.sweep);
-    return results ? show(*results, outputs, options.folder) : fail(results.error());
+    auto results = accuracy::measureAll(**device, options.sweep);
+    if (!results) return fail(results.error());
+    keepHardCases(*results, options.folder);
+    return show(*results, outputs, options.folder);
 }
 
 int runAccuracy(const AccuracyOptions& options) { return options.from.empty() ? measureAnew(options) : rewritePage(options); }

@@ -49,12 +49,13 @@ bool isPromised(const HardCase& one) { return one.setting != "double" && one.set
 
 void printSum(const std::vector<HardCase>& outcomes) {
     const auto count = [&](auto&& is) { return std::ranges::count_if(outcomes, is); };
-    std::printf("\n%zu cases: %td pass, %td of them short of what is known to be out of reach; %td fail at a precision that promises "
-                "nothing, %td else\n",
-                outcomes.size(), count([](const HardCase& c) { return c.has_passed; }),
-                count([](const HardCase& c) { return c.has_passed && c.is_known_shortfall; }),
-                count([](const HardCase& c) { return !c.has_passed && !isPromised(c); }),
-                count([](const HardCase& c) { return !c.has_passed && isPromised(c); }));
+    std::printf(
+        "\n%zu cases: %td pass, %td of them short of what is known to be out of reach; %td fail at a precision that promises "
+        "nothing, %td else\n",
+        outcomes.size(), count([](const HardCase& c) { return c.has_passed; }),
+        count([](const HardCase& c) { return c.has_passed && c.is_known_shortfall; }),
+        count([](const HardCase& c) { return !c.has_passed && !isPromised(c); }),
+        count([](const HardCase& c) { return !c.has_passed && isPromised(c); }));
 }
 
 // Goes by how long the cases took so far, which are not alike: no more than a hint.
@@ -62,10 +63,12 @@ hard::RunWatch watchOnTerminal() {
     const auto begun = std::chrono::steady_clock::now();
     const auto begins = [begun](const hard::RunStep& step) {
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-        const double left = step.number == 0 ? 0 : seconds / static_cast<double>(step.number) * static_cast<double>(step.count - step.number);
+        const double left =
+            step.number == 0 ? 0 : seconds / static_cast<double>(step.number) * static_cast<double>(step.count - step.number);
+        if (step.number == 0) printHead();
         char text[192];
-        std::snprintf(text, sizeof text, "%zu of %zu: %s, %s; about %.0f s left", step.number + 1, step.count, step.name.c_str(),
-                      step.setting.c_str(), left);
+        std::snprintf(text, sizeof text, "%zu of %zu: %s, %s; about %.0f s left", step.number + 1, step.count,
+                      step.name.c_str(), step.setting.c_str(), left);
         showProgress(text);
     };
     const auto ended = [](const HardCase& one) {
@@ -122,7 +125,6 @@ int runHard(const HardOptions& options) {
         if (auto ready = prepareFolder(options.folder); !ready) return fail(ready.error());
     const auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
-    printHead();
     auto outcomes = hard::runHardCases(**device, options.run, watchOnTerminal());
     if (!outcomes) return fail(outcomes.error());
     printSum(*outcomes);
@@ -142,9 +144,12 @@ constexpr const char* kFooter =
     "  brittle hard --only plate\n"
     "  brittle hard -o out/accuracy\n"
     "\n"
-    "Sites in ties and crowds, models that are thin, tiny, huge, far away or of slivers, fragments of fragments, meshes that bound no\n"
-    "solid, full pools, and scenes that break rigid-body engines. Each has to fulfill what stands in the row: the worst of all that\n"
-    "was measured, next to what is allowed. Breaks are made at every precision; only exact promises anything. `short` is what is\n"
+    "Sites in ties and crowds, models that are thin, tiny, huge, far away or of slivers, fragments of fragments, meshes that "
+    "bound no\n"
+    "solid, full pools, and scenes that break rigid-body engines. Each has to fulfill what stands in the row: the worst of all "
+    "that\n"
+    "was measured, next to what is allowed. Breaks are made at every precision; only exact promises anything. `short` is what "
+    "is\n"
     "known to be out of reach. With -o the matrix goes into results.json and onto the page of that folder, next to what\n"
     "`brittle accuracy` has measured there. The exit code is 0 where all that is promised holds.";
 
@@ -154,10 +159,14 @@ void addHard(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("hard", "Run every hard case at every precision, and show what holds.");
     command->footer(kFooter);
     auto options = std::make_shared<HardOptions>();
-    command->add_option("--only", options->run.only, "the cases whose name has this in it")->option_text("TEXT")->check(someText);
+    command->add_option("--only", options->run.only, "the cases whose name has this in it")
+        ->option_text("TEXT")
+        ->check(someText);
     command->add_flag("--long", options->run.is_long, "also those that take minutes each");
     command->add_flag("--list", options->list, "run nothing: the names of all cases");
-    command->add_option("-o,--output", options->folder, "a folder for results.json and report.html")->option_text("DIR")->check(someText);
+    command->add_option("-o,--output", options->folder, "a folder for results.json and report.html")
+        ->option_text("DIR")
+        ->check(someText);
     command->add_option("--device", options->device, "the Vulkan device, by number or a part of its name; see brittle devices");
     command->callback([options, &exit_code] { exit_code = runHard(*options); });
 }

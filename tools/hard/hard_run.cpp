@@ -52,8 +52,9 @@ HardCase outcomeOf(const Job& job, const Trial& trial, const FractureCost& cost)
 void addFractures(std::vector<Job>& jobs, const std::shared_ptr<brittle::Fracture>& fracture) {
     for (const FractureCase& one : fractureCases())
         for (const Precision precision : kPrecisions)
-            jobs.push_back({one.name, brittle::nameOf(precision),
-                            [one, precision, fracture](Trial& trial) { return measureFracture(trial, *fracture, one, precision); }});
+            jobs.push_back({one.name, brittle::nameOf(precision), [one, precision, fracture](Trial& trial) {
+                                return measureFracture(trial, *fracture, one, precision);
+                            }});
 }
 
 void addOthers(std::vector<Job>& jobs, bool is_long) {

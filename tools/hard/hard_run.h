@@ -26,8 +26,10 @@ struct RunWatch {
     std::function<void(const accuracy::HardCase&)> ended;
 };
 
-// Errors: BadInput, where no case has such a name; Device, where fracture cannot be made. A case that fails is a case that says why.
-engine::Result<std::vector<accuracy::HardCase>> runHardCases(engine::Device& device, const RunOptions& options, const RunWatch& watch);
+// Errors: BadInput, where no case has such a name; Device, where fracture cannot be made. A case that fails is a case that says
+// why.
+engine::Result<std::vector<accuracy::HardCase>> runHardCases(engine::Device& device, const RunOptions& options,
+                                                             const RunWatch& watch);
 
 // Of all cases, in order; those that --long adds say so.
 std::vector<std::string> hardCaseNames();

@@ -148,26 +148,33 @@ function showLaws() {
   section("laws").append(make("div", { class: "pair" }, results.laws.map((law, k) => lawFigure(law, `/laws/${k}`))));
 }
 
-// Cases down, settings across.
-function showHard() {
-  section("hard").hidden = results.hard.length === 0;
-  const cases = [...new Set(results.hard.map((one) => one.name))], settings = [...new Set(results.hard.map((one) => one.setting))];
-  const first = (name, value) => results.hard.findIndex((one) => one[name] === value);
+// Cases down, settings across; those that have settings in common stand in one table.
+function hardTable(cases) {
+  const names = [...new Set(cases.map((one) => one.name))], settings = [...new Set(cases.map((one) => one.setting))];
+  const pathOf = (test) => `/hard/${results.hard.findIndex(test)}`;
   const cell = (name, setting) => {
-    const k = results.hard.findIndex((one) => one.name === name && one.setting === setting);
-    if (k < 0) return make("td", {}, "–");
-    const one = results.hard[k], path = `/hard/${k}`;
+    const one = cases.find((each) => each.name === name && each.setting === setting);
+    if (!one) return make("td", {}, "–");
+    const path = pathOf((each) => each === one);
     const verdict = !one.has_passed ? "fails" : one.is_known_shortfall ? "short" : "passes";
     const measured = one.why !== "" ? words(path + "/why")
         : [words(path + "/worst_kind"), " ", number(path + "/worst_error"), " of ", number(path + "/allowed"), " ", words(path + "/unit")];
     return make("td", { class: verdict }, verdict, make("span", { class: "small" }, measured),
-                make("span", { class: "small" }, number(path + "/exact_tests"), " cells cut again exactly, ", number(path + "/ms"), " ms"));
+                make("span", { class: "small" }, one.exact_tests > 0 ? [number(path + "/exact_tests"), " cells cut again exactly, "] : "",
+                     number(path + "/ms"), " ms"));
   };
-  section("hard").append(make("div", { class: "scroll" }, make("table", {},
-      make("thead", {}, make("tr", {}, make("th", {}, "Case"), settings.map((setting) => make("th", {},
-          words(`/hard/${first("setting", setting)}/setting`))))),
-      make("tbody", {}, cases.map((name) => make("tr", {}, make("td", {}, words(`/hard/${first("name", name)}/name`)),
-                                                  settings.map((setting) => cell(name, setting))))))));
+  return make("div", { class: "scroll" }, make("table", { class: "even" },
+      make("thead", {}, make("tr", {}, make("th", {}, "Case"),
+          settings.map((setting) => make("th", {}, words(pathOf((each) => each.setting === setting) + "/setting"))))),
+      make("tbody", {}, names.map((name) => make("tr", {}, make("td", {}, words(pathOf((each) => each.name === name) + "/name")),
+                                                 settings.map((setting) => cell(name, setting)))))));
+}
+
+function showHard() {
+  section("hard").hidden = results.hard.length === 0;
+  const settingsOf = (one) => results.hard.filter((each) => each.name === one.name).map((each) => each.setting).join();
+  const groups = Map.groupBy(results.hard, settingsOf);
+  section("hard").append(...[...groups.values()].map(hardTable));
 }
 
 function showMachine() {
@@ -193,6 +200,12 @@ function showReferences() {
           ["name", "label", "unit", "reference"].map((name) => words(`/kinds/${k}/${name}`, "td"))))))));
 }
 
+// Of results in which a part was not measured.
+function hideEmpty() {
+  for (const part of document.querySelectorAll("main > section"))
+    if ([...part.children].every((child) => child.tagName === "H2" || child.children.length === 0)) part.hidden = true;
+}
+
 function showContents() {
   for (const heading of document.querySelectorAll("main h2")) {
     const place = heading.id || heading.parentElement.id;
@@ -210,5 +223,5 @@ function showAlone() {
 }
 
 for (const show of [showLead, showUseful, showFamilies, showFigures, showPictures, showLaws, showHard, showMachine,
-                    showReferences, showContents, showAlone])
+                    showReferences, hideEmpty, showContents, showAlone])
   show();

@@ -193,8 +193,8 @@ function priceRow(row, workload) {
   return make("tr", { class: row.m.is_default ? "default" : row.m.is_dominated ? "dominated" : undefined },
               make("td", { class: "setting" }, row.m.is_default ? "default " : words(row.path + "/knob"),
                    make("span", { class: "small" }, words(row.path + "/setting"))),
-              isMissing ? make("td", { colspan: times.length }, "no result: ", words(row.path + "/failed")) : times,
-              make("td", { class: "loses" }, words(row.path + "/loses")));
+              make("td", { class: "loses" }, words(row.path + "/loses")),
+              isMissing ? make("td", { colspan: times.length }, "no result: ", words(row.path + "/failed")) : times);
 }
 
 function priceList(workload, path) {
@@ -202,9 +202,9 @@ function priceList(workload, path) {
   const note = make("p", { class: "note" }, "Price list. Times: ", words(path + "/time_of"),
                     "; median, and below it the middle half. Memory: ", words(path + "/bytes_of"), ".");
   return [note, make("div", { class: "scroll" }, make("table", { "aria-label": "Price list of " + workload.name },
-      make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Setting"), head("ms"), head("of the default’s"),
+      make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Setting"), make("th", { scope: "col" }, "What one loses"), head("ms"), head("of the default’s"),
           workload.kinds.map((kind) => head(words(kindPath(kind) + "/name"),
                                             make("span", { class: "small" }, words(kindPath(kind) + "/unit")))),
-          head("MiB"), make("th", { scope: "col" }, "What one loses"))),
+          head("MiB"))),
       make("tbody", {}, rowsOf(workload.name).map((row) => priceRow(row, workload)))))];
 }

@@ -1,0 +1,84 @@
+// brittle hard as its users meet it: its rows, what it leaves in a folder, what it refuses.
+#include "tests/support/folder_test.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+using nlohmann::json;
+using support::fileBytes;
+using support::Outcome;
+using support::runProgram;
+
+const std::string kStored = std::string(BRITTLE_SOURCE_DIR) + "/tests/cli/accuracy_results.json";
+
+class HardCli : public support::FolderTest {
+protected:
+    static Outcome hard(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "hard");
+        return runProgram("brittle", arguments);
+    }
+    json results() const { return json::parse(fileBytes(path("page/results.json"))); }
+};
+
+size_t linesOf(const std::string& text) { return static_cast<size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+TEST_F(HardCli, ListsMoreThanAHundredCasesWithoutRunningAny) {
+    const Outcome run = hard({"--list"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_GT(linesOf(run.out), 100u);
+    for (const char* name : {"sites: lattice, cubic, 16", "ball broken eight times over", "mesh with a hole", "all pools full",
+                             "hard_20_pile_1000", "hard_05_stack_40 (long)"})
+        EXPECT_NE(run.out.find(name), std::string::npos) << name;
+}
+
+TEST_F(HardCli, ShowsARowForEveryPrecisionAndLeavesThePage) {
+    const Outcome run = hard({"--only", "sites on a cube's corners", "-o", path("page")});
+    EXPECT_EQ(run.exit_code, 0) << "less than exact promises nothing: " << run.err;
+    EXPECT_NE(run.out.find("3 cases: 1 pass"), std::string::npos) << run.out;
+    const json cases = results()["hard"];
+    ASSERT_EQ(cases.size(), 3u);
+    EXPECT_EQ(cases[0]["setting"], "exact");
+    EXPECT_EQ(cases[0]["has_passed"], true);
+    EXPECT_GT(cases[0]["exact_tests"], 0);
+    EXPECT_GT(cases[0]["ms"], 0);
+    EXPECT_EQ(cases[2]["setting"], "fast");
+    EXPECT_EQ(cases[2]["has_passed"], false) << "everything ties here";
+    EXPECT_TRUE(fileBytes(path("page/report.html")).starts_with("<!doctype html>"));
+}
+
+TEST_F(HardCli, AddsToWhatAccuracyHasMeasured) {
+    std::filesystem::create_directories(folder() / "page");
+    std::filesystem::copy_file(kStored, folder() / "page" / "results.json");
+    const json before = results();
+    const Outcome run = hard({"--only", "mesh with a fin", "-o", path("page")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const json after = results();
+    EXPECT_EQ(after["measurements"].size(), before["measurements"].size());
+    ASSERT_EQ(after["hard"].size(), 1u);
+    EXPECT_EQ(after["hard"][0]["name"], "mesh with a fin");
+}
+
+TEST_F(HardCli, RefusesWhatThereIsNot) {
+    const auto expectRefused = [](const Outcome& run, const std::string& holds, int exit_code = 2) {
+        EXPECT_EQ(run.exit_code, exit_code) << run.err;
+        EXPECT_EQ(linesOf(run.err), 1u) << run.err;
+        EXPECT_NE(run.err.find(holds), std::string::npos) << run.err;
+    };
+    expectRefused(hard({"--only", "no such case"}), "brittle hard --list");
+    expectRefused(hard({"--only", ""}), "empty name");
+    expectRefused(hard({"--device", "no such device"}), "no such device", 4);
+    expectRefused(hard({"-o", "/proc/no"}), "/proc/no");
+    std::filesystem::create_directories(folder() / "page");
+    std::ofstream(path("page/results.json")) << "{";
+    expectRefused(hard({"-o", path("page")}), "results.json");
+    EXPECT_EQ(fileBytes(path("page/results.json")), "{") << "what is there stays";
+}
+
+} // namespace
