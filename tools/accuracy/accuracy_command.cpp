@@ -1,5 +1,6 @@
 // brittle accuracy: its options, and the files it writes.
 #include "tools/accuracy/fracture_run.h"
+#include "tools/accuracy/price_list.h"
 #include "tools/accuracy/report.h"
 #include "tools/accuracy/sweep.h"
 #include "tools/brittle/command.h"
@@ -95,6 +96,7 @@ int measureAnew(const AccuracyOptions& options) {
     auto results = accuracy::measureAll(**device, options.sweep);
     if (!results) return fail(results.error());
     keepHardCases(*results, options.folder);
+    accuracy::keepPriceList(*results);
     return show(*results, outputs, options.folder);
 }
 
@@ -109,7 +111,8 @@ constexpr const char* kFooter =
     "DIR gets results.json with every measurement, results.csv with a row for each, and report.html, one page that needs no\n"
     "network. Every knob is turned alone, and some two at a time; all settings take turns in every round, so that a machine\n"
     "that is busy for a while is busy for all of them. Times are medians with their quartiles. Errors are against references\n"
-    "in double precision and closed forms. On stdout stand the most useful lines of the price list.";
+    "in double precision and closed forms. On stdout stand the most useful lines of the price list.\n"
+    "They are kept as the prices of this device, by which --budget-ms and --tolerance of shatter and simulate pick settings.";
 
 } // namespace
 

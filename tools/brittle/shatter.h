@@ -5,6 +5,7 @@
 #include "modules/brittle/fracture/verify.h"
 #include "modules/brittle/mesh/check.h"
 #include "modules/brittle/mesh/repair/repair.h"
+#include "tools/brittle/auto_setting.h"
 #include "tools/brittle/simulation.h"
 
 #include <optional>
@@ -40,6 +41,7 @@ struct ShatterOptions {
     uint32_t group_size = 0; // lanes of a workgroup; 0: the usual number
     uint32_t collider = 0;   // directions; 0: none
     std::optional<DropOptions> drop;
+    accuracy::Wish wish; // for a setting to be picked
     bool repair = false; // mend the model where it needs to be
     bool verify = false; // refuse fragments that break their contract
     bool as_json = false;
@@ -53,6 +55,7 @@ struct ShatterOutcome {
     brittle::ContractReport contract;               // where it was asked for
     std::vector<std::pair<std::string, double>> ms; // by what was done, in order; the stages on the device among them
     double total_ms = 0;
+    std::optional<AutoReport> picked;       // where there was a wish
     std::optional<SimulationReport> motion; // where they were dropped
 };
 

@@ -48,6 +48,7 @@ nlohmann::ordered_json toJson(const ShatterOutcome& outcome) {
         {"ms", ms},
     };
     if (!outcome.result.fragments.colliders.pieces.empty()) json["colliders"] = collidersJson(outcome.result.fragments);
+    if (outcome.picked) json["picked"] = autoJson(*outcome.picked);
     if (outcome.motion) json["motion"] = simulationJson(*outcome.motion);
     if (!outcome.mended.isEmpty()) json["mended"] = mendedJson(outcome.mended);
     return json;
@@ -63,6 +64,7 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
                 counts.sites_welded);
     std::printf("cells      %u ok, %u empty, %u merged, %u refused; %u of %u done again exactly\n", counts.cells_ok,
                 counts.cells_empty, counts.cells_merged, counts.cells_refused, counts.exact_redone, counts.exact_total);
+    if (outcome.picked) printAuto(*outcome.picked);
     std::printf("fragments  %zu, in %s\n", outcome.result.fragments.fragments.size(), options.output.c_str());
     if (!outcome.result.fragments.colliders.pieces.empty()) printColliders(outcome.result.fragments);
     for (const std::string& picture : {options.picture, options.collider_picture})
@@ -256,6 +258,7 @@ void addShatter(CLI::App& app, int& exit_code) {
                      "of the decisions: exact, double or fast; what is not exact may fail its check, and then writes nothing")
         ->transform(oneOf(kPrecisions))
         ->option_text("NAME [exact]");
+    addAutoOptions(*command, options->wish, "the break", accuracy::kFractureFamily.error);
     CLI::Option* collider =
         command
             ->add_option(

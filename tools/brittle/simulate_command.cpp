@@ -1,4 +1,5 @@
 // brittle simulate: a scene in motion, as an animation, a picture, a film, or numbers.
+#include "tools/brittle/auto_setting.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/motion_output.h"
 #include "tools/brittle/progress.h"
@@ -6,6 +7,8 @@
 #include "tools/brittle/scene_source.h"
 #include "tools/brittle/simulation.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace cli {
@@ -20,6 +23,7 @@ struct SimulateOptions {
     std::optional<double> seconds;
     double fps = kUsualFps;
     uint32_t group_size = 0;
+    accuracy::Wish wish; // for a setting to be picked
     bool state_hash = false;
     bool as_json = false;
 };
@@ -27,6 +31,7 @@ struct SimulateOptions {
 struct SimulateOutcome {
     std::string device;
     SimulationReport report;
+    std::optional<AutoReport> picked; // where there was a wish
 };
 
 Result<void> checkOutputApart(const SimulateOptions& options, const brittle::SceneDescription& scene) {
@@ -51,6 +56,34 @@ Result<std::unique_ptr<MotionOutput>> openOutput(const SimulateOptions& options,
     return MotionOutput::create(options.output, options.fps);
 }
 
+// Frames are of a sixtieth of a second, whatever the step.
+constexpr double kFrame = 1.0 / 60, kTrial = 1; // s
+
+double msOfFrame(const SimulationReport& report, double dt) { return report.median_ms * kFrame / dt; }
+
+// So long as before, in steps of another length.
+void setStep(StagedScene& staged, double dt) {
+    brittle::StepDescription& step = staged.scene.step;
+    step.steps = static_cast<uint32_t>(std::lround(std::max(1.0, step.steps * step.dt / dt)));
+    step.dt = dt;
+}
+
+// Prices tell how times compare, not how long this scene takes: its first second is simulated as usual.
+Result<AutoReport> pickFor(engine::Device& device, StagedScene& staged, const SimulateOptions& options) {
+    const brittle::StepDescription& step = staged.scene.step;
+    const double seconds = std::min({kTrial, options.seconds.value_or(kTrial), step.steps * step.dt});
+    showProgress("measuring the first second");
+    const auto usual = simulate(device, staged, seconds, options.group_size, nullptr);
+    if (!usual) return usual.error();
+    auto picked = pickSetting(device, accuracy::kDynamicsFamily, msOfFrame(*usual, step.dt), options.wish);
+    if (!picked) return picked;
+    brittle::StepSettings settings{.dt = step.dt};
+    applyTo(settings, picked->choice.price);
+    setStep(staged, settings.dt);
+    staged.adjust = [price = picked->choice.price](brittle::StepSettings& s) { applyTo(s, price); };
+    return picked;
+}
+
 Result<SimulateOutcome> run(const SimulateOptions& options) {
     auto scene = readSceneOrBuiltin(options.scene);
     if (!scene) return scene.error();
@@ -63,23 +96,32 @@ Result<SimulateOutcome> run(const SimulateOptions& options) {
     device = std::move(*opened);
     auto staged = stageScene(*device, std::move(*scene), {options.scene, options.group_size, !options.output.empty()});
     if (!staged) return staged.error();
+    std::optional<AutoReport> picked;
+    if (options.wish.isThere()) {
+        auto setting = pickFor(*device, *staged, options);
+        if (!setting) return setting.error();
+        picked = std::move(*setting);
+    }
     auto report = simulate(*device, *staged, options.seconds, options.group_size, output->get());
     if (!report) return report.error();
     if (*output)
         if (auto committed = (*output)->commit(); !committed) return committed.error();
     clearProgress();
-    return SimulateOutcome{device->name(), std::move(*report)};
+    if (picked) picked->taken_ms = msOfFrame(*report, staged->scene.step.dt);
+    return SimulateOutcome{device->name(), std::move(*report), std::move(picked)};
 }
 
 void print(const SimulateOptions& options, const SimulateOutcome& outcome) {
     if (options.as_json) {
         nlohmann::ordered_json json = {{"device", outcome.device}};
+        if (outcome.picked) json["picked"] = autoJson(*outcome.picked);
         json.update(simulationJson(outcome.report));
         std::printf("%s\n", json.dump(2).c_str());
     } else if (options.state_hash) {
         std::printf("%s\n", hexOf(outcome.report.state_hash).c_str());
     } else {
         std::printf("device     %s\n", outcome.device.c_str());
+        if (outcome.picked) printAuto(*outcome.picked);
         printSimulation(outcome.report, options.output);
     }
 }
@@ -120,6 +162,7 @@ void addSimulate(CLI::App& app, int& exit_code) {
     auto* hash = command->add_flag("--state-hash", options->state_hash,
                                    "print 64 bits that tell the last state of all bodies, and no more");
     command->add_flag("--json", options->as_json, "print one JSON object, the hash in it")->excludes(hash);
+    addAutoOptions(*command, options->wish, "a frame of a sixtieth of a second", accuracy::kDynamicsFamily.error);
     addDeviceOptions(*command, options->device, options->group_size, "; the motion is the same");
     command->callback([options, &exit_code] { exit_code = runSimulate(*options); });
 }

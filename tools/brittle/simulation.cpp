@@ -165,8 +165,9 @@ Result<StagedScene> stageScene(engine::Device& device, brittle::SceneDescription
 }
 
 Result<std::unique_ptr<brittle::World>> worldOf(engine::Device& device, const StagedScene& staged, uint32_t group_size) {
-    const auto settings = brittle::settingsOf(staged.scene);
+    auto settings = brittle::settingsOf(staged.scene);
     if (!settings) return aboutScene(staged, settings.error());
+    if (staged.adjust) staged.adjust(*settings);
     auto world = brittle::World::create(device, staged.contents, *settings, brittle::budgetOf(staged.scene, group_size));
     if (!world) return aboutScene(staged, world.error());
     return world;

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ struct StagedScene {
     brittle::SceneDescription scene;
     brittle::WorldContents contents;
     brittle::WorldSurfaces surfaces;                        // only read where there is an output
+    std::function<void(brittle::StepSettings&)> adjust;     // of the scene's settings; none: as they are
     std::string room_advice = "see [budgets] in the scene"; // where something does not fit
 };
 
