@@ -15,6 +15,7 @@
 // Wants `solver_bodies` and `solver_contacts` declared. Its push constants are those of SolverPush.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
+#include "lib/blow.glsl"
 #include "lib/effect.glsl"
 
 FRICTION_EFFECT;
@@ -162,10 +163,11 @@ void resistSliding(inout vec4 rub, uint c, vec3 normal, float most, inout Touchi
     rub.xy = total;
 }
 
-void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
+// `after_blow`: what the blow was rubbed with was forgotten with it, and is no more to be taken back.
+void rubContact(uint c, vec4 normal, uint points, bool after_blow, inout Touching t) {
     float pressed = 0.0;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) pressed += solver_contacts[c].points[k].pulse.x;
-    vec4 rub = solver_contacts[c].rub;
+    vec4 rub = after_blow ? vec4(0.0) : solver_contacts[c].rub;
     float most = normal.w * pressed;
     float yield_ = dot(normal.xyz, spinBy(t.a, normal.xyz) + spinBy(t.b, normal.xyz));
     float twist_mass = t.rubs_anew ? inverseOf(yield_) : solver_contacts[c].center_a.w;
@@ -214,8 +216,9 @@ void solveContact(uint c) {
     vec4 normal = solver_contacts[c].normal;
     Touching t = touchingOf(c, ids, normal.xyz);
     vec4 limits = solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft;
+    bool after_blow = with_push == PUSH_FIRST && isBlow(c, ids.z); // of the substep before
     pressContact(c, normal.xyz, ids.z, limits, t);
-    if (kFriction != 0u) rubContact(c, normal, ids.z, t);
+    if (kFriction != 0u) rubContact(c, normal, ids.z, after_blow, t);
     keepMotion(ids.x, t.a);
     keepMotion(ids.y, t.b);
 }

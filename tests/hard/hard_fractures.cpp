@@ -170,6 +170,7 @@ std::vector<FractureCase> fractureCases() {
                          .site_count = 100});
     cases.push_back({.name = "rod, 1e-4 as thick as long", .model = rod, .parameter = 1e-4, .site_count = 100});
     cases.push_back({.name = "needle with a point of 1e-6", .model = needle, .parameter = 1e-6, .site_count = 60});
+    cases.push_back({.name = "model of slivers in two cells", .model = slivers, .parameter = 100, .site_count = 2});
     cases.push_back({.name = "model of slivers", .model = slivers, .parameter = 100, .site_count = 40});
     for (const double scale : {1e-9, 1e-3, 1e6, 1e9})
         cases.push_back({.name = "ring of size 1e" + std::to_string(std::lround(std::log10(scale))),

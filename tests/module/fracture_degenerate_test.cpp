@@ -224,26 +224,6 @@ TEST(FractureThin, RodsAndNeedles) {
     expectContractOf(modelFrom(needle), {1, 2, 60});
 }
 
-// Triangles 10,000 times as long as they are wide, all around.
-TEST(FractureThin, TrianglesOfASliveredModel) {
-    brittle::ImportedMesh drum;
-    constexpr int kSides = 600;
-    for (int s = 0; s < kSides; ++s)
-        for (const double x : {-50., 50.})
-            drum.positions.push_back({x, std::cos(2 * M_PI * s / kSides), std::sin(2 * M_PI * s / kSides)});
-    const auto at = [](int s, int end) { return static_cast<uint32_t>(2 * (s % kSides) + end); };
-    for (int s = 0; s < kSides; ++s) {
-        drum.triangles.push_back({at(s, 0), at(s + 1, 1), at(s, 1)});
-        drum.triangles.push_back({at(s, 0), at(s + 1, 0), at(s + 1, 1)});
-        if (s == 0 || s + 1 == kSides) continue;
-        drum.triangles.push_back({at(0, 0), at(s + 1, 0), at(s, 0)});
-        drum.triangles.push_back({at(0, 1), at(s, 1), at(s + 1, 1)});
-    }
-    drum.corner_normals.resize(3 * drum.triangles.size());
-    drum.corner_uvs.resize(3 * drum.triangles.size());
-    expectContractOf(modelFrom(drum), {2, 40});
-}
-
 brittle::ImportedMesh scaledRing(double scale, const Double3& by) {
     return support::moved(brittle::makeBuiltin("ring").value(), scale, by);
 }
