@@ -13,8 +13,9 @@ constexpr VkDeviceSize kMinTake = 16;
 
 } // namespace
 
-Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity, std::string_view name) {
-    auto buffer = Buffer::create(device, capacity, BufferDomain::Device, 0, name);
+Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity, std::string_view name,
+                                          VkBufferUsageFlags usage) {
+    auto buffer = Buffer::create(device, capacity, BufferDomain::Device, usage, name);
     if (!buffer) return buffer.error();
     ScratchArena arena;
     arena.device_ = &device;
@@ -36,7 +37,7 @@ BufferView ScratchArena::take(VkDeviceSize bytes) {
 }
 
 BufferView ScratchArena::takeAlone(VkDeviceSize size) {
-    auto buffer = Buffer::create(*device_, size, BufferDomain::Device, 0, buffer_->name());
+    auto buffer = Buffer::create(*device_, size, BufferDomain::Device, buffer_->usage(), buffer_->name());
     if (!buffer) {
         overflowed_ = true;
         return {};

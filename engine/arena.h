@@ -13,11 +13,13 @@ class ScratchArena {
 public:
     using Mark = VkDeviceSize;
 
-    // The capacity is fixed: plan it first.
-    static Result<ScratchArena> create(Device& device, VkDeviceSize capacity, std::string_view name = "scratch");
+    // The capacity is fixed: plan it first. `usage`: beside what every buffer is for.
+    static Result<ScratchArena> create(Device& device, VkDeviceSize capacity, std::string_view name = "scratch",
+                                       VkBufferUsageFlags usage = 0);
 
-    // A range that can be bound as storage, of a multiple of 16 bytes and not less than that. Where it does not fit the view is empty and status() fails
-    // until the next reset(); taking goes on, so that the message names all that would have been needed.
+    // A range that can be bound as storage, of a multiple of 16 bytes and not less than that. Where it does not fit the view is
+    // empty and status() fails until the next reset(); taking goes on, so that the message names all that would have been
+    // needed.
     BufferView take(VkDeviceSize bytes);
     Mark mark() const { return used_; }
     void release(Mark mark);

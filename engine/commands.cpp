@@ -55,7 +55,7 @@ Commands::~Commands() {
     if (fence_ != VK_NULL_HANDLE) device_.vk().vkDestroyFence(device_.handle(), fence_, nullptr);
 }
 
-Result<void> Commands::createOwn() {
+Result<void> Commands::createOwn(bool secondary) {
     const VolkDeviceTable& vk = device_.vk();
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device_.computeQueue().family;
@@ -63,6 +63,8 @@ Result<void> Commands::createOwn() {
     if (made != VK_SUCCESS) return vulkanError("command pool", made);
     VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     commands.commandPool = pool_;
+    commands.level = secondary ? VK_COMMAND_BUFFER_LEVEL_SECONDARY : VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    secondary_ = secondary;
     commands.commandBufferCount = 1;
     made = vk.vkAllocateCommandBuffers(device_.handle(), &commands, &commands_);
     if (made != VK_SUCCESS) return vulkanError("command buffer", made);
@@ -83,11 +85,17 @@ Result<void> Commands::begin(Reuse reuse) {
     if (trace_) trace_->clear();
     if (external_) return {};
     if (pool_ == VK_NULL_HANDLE) {
-        if (auto made = createOwn(); !made) return made;
+        if (auto made = createOwn(reuse == Reuse::ByOthers); !made) return made;
     }
+    ENGINE_ASSERT(secondary_ == (reuse == Reuse::ByOthers));
     device_.vk().vkResetCommandPool(device_.handle(), pool_, 0);
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     if (reuse == Reuse::Once) info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    const VkCommandBufferInheritanceInfo alone{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO};
+    if (secondary_) {
+        info.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT;
+        info.pInheritanceInfo = &alone;
+    }
     const VkResult begun = device_.vk().vkBeginCommandBuffer(commands_, &info);
     if (begun != VK_SUCCESS) return vulkanError("cannot begin a command buffer", begun);
     recording_ = true;
@@ -121,6 +129,30 @@ Result<void> Commands::wait() {
     const VkResult waited = device_.vk().vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
     if (waited != VK_SUCCESS) return vulkanError("waiting for the device " + device_.name(), waited);
     return {};
+}
+
+Result<void> Commands::end() {
+    ENGINE_ASSERT(secondary_ && recording_);
+    recording_ = false;
+    flush();
+    const VkResult ended = device_.vk().vkEndCommandBuffer(commands_);
+    if (error_) return *error_;
+    if (ended != VK_SUCCESS) return vulkanError("cannot end a command buffer", ended);
+    return {};
+}
+
+void Commands::executeIn(VkCommandBuffer primary) const {
+    ENGINE_ASSERT(secondary_ && !recording_);
+    separate(primary);
+    device_.vk().vkCmdExecuteCommands(primary, 1, &commands_);
+}
+
+void Commands::separate(VkCommandBuffer commands) const {
+    const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
+                                  VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT,
+                                  VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
+    device_.vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1,
+                                      &barrier, 0, nullptr, 0, nullptr);
 }
 
 Result<void> Commands::status() const {
@@ -276,6 +308,21 @@ void Commands::copy(BufferView source, BufferView target) {
     device_.vk().vkCmdCopyBuffer(commands_, source.buffer->handle(), target.buffer->handle(), 1, &region);
 }
 
+void Commands::update(BufferView target, Bytes bytes) {
+    if (bytes.empty()) return;
+    constexpr size_t kMost = 65536;
+    const bool words = target.offset % 4 == 0 && bytes.size() % 4 == 0 && bytes.size() <= kMost;
+    if (target.buffer == nullptr || !words || target.size < bytes.size() || !fits(target)) {
+        fail({ErrorCode::Internal, "update of " + std::to_string(bytes.size()) + " bytes that are not words of a buffer"});
+        return;
+    }
+    const BufferView part = target.sub(0, bytes.size());
+    note(TracedCommand::Kind::Copy, nullptr, 0, {&part, 1});
+    const Access access = accessOf(part, true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+    declare({&access, 1});
+    device_.vk().vkCmdUpdateBuffer(commands_, target.buffer->handle(), target.offset, bytes.size(), bytes.data());
+}
+
 void Commands::beginLabel(std::string_view name) {
     if (timestamps_.open()) {
         fail({ErrorCode::Internal, "label \"" + std::string(name) + "\" begins inside another"});
@@ -287,16 +334,17 @@ void Commands::beginLabel(std::string_view name) {
     const std::string terminated(name);
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
     label.pLabelName = terminated.c_str();
-    vkCmdBeginDebugUtilsLabelEXT(commands_, &label);
+    device_.instanceFunctions().vkCmdBeginDebugUtilsLabelEXT(commands_, &label);
 }
 
 void Commands::endLabel() {
     label_.clear();
     if (!time_kernels_) timestamps_.end(commands_);
-    if (device_.hasDebugUtils()) vkCmdEndDebugUtilsLabelEXT(commands_);
+    if (device_.hasDebugUtils()) device_.instanceFunctions().vkCmdEndDebugUtilsLabelEXT(commands_);
 }
 
 void Commands::beginSpan(std::string_view name) {
+    if (secondary_) return;
     if (auto begun = timestamps_.begin(commands_, name); !begun) fail(begun.error());
 }
 

@@ -36,7 +36,9 @@ struct TracedCommand {
 
 class Commands {
 public:
-    enum class Reuse : uint8_t { Once, Many };
+    // ByOthers: a secondary command buffer, which command buffers of others execute, several of them at a time; nothing in it
+    // is timed.
+    enum class Reuse : uint8_t { Once, Many, ByOthers };
 
     // With a command buffer of its own, for the compute queue.
     explicit Commands(Device& device);
@@ -55,6 +57,14 @@ public:
     Result<void> wait();
     // What was begun with Reuse::Many and submitted, once more; the device must have finished with it.
     Result<void> submitAgain();
+    // Ends what was begun with Reuse::ByOthers. It may be executed from now on, as long as this is neither begun again nor
+    // destroyed before those command buffers have finished.
+    Result<void> end();
+    // Records into a primary command buffer of the compute family, outside of render passes: after all that was submitted or
+    // recorded before and before all that is after.
+    void executeIn(VkCommandBuffer primary) const;
+    // What is recorded from here on comes after all that was recorded or submitted before, by whomever.
+    void separate() { separate(commands_); }
     // The first mistake of this recording.
     Result<void> status() const;
 
@@ -82,6 +92,8 @@ public:
     // Whole words only. Empty views record nothing.
     void fill(BufferView target, uint32_t value);
     void copy(BufferView source, BufferView target);
+    // Whole words, 64 KiB at most, which the recording keeps.
+    void update(BufferView target, Bytes bytes);
 
     // Device time between the two, under this name. Labels do not nest.
     void beginLabel(std::string_view name);
@@ -119,6 +131,7 @@ private:
         else
             return std::as_bytes(std::span(&push, 1));
     }
+    void separate(VkCommandBuffer commands) const;
     void fail(Error error);
     void failKernel(const Kernel& kernel, const std::string& why);
     bool accepts(const Kernel& kernel, Bytes push, Views buffers);
@@ -129,10 +142,11 @@ private:
     void note(TracedCommand::Kind kind, const Kernel* kernel, uint32_t count, Views buffers, const BufferView& arguments = {});
     void declare(std::span<const Access> accesses);
     void beginSpan(std::string_view name);
-    Result<void> createOwn();
+    Result<void> createOwn(bool secondary);
 
     Device& device_;
     bool external_ = false;
+    bool secondary_ = false; // the one of its own
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

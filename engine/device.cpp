@@ -1,6 +1,7 @@
 #include "engine/device.h"
 
 #include <cstdlib>
+#include <optional>
 
 namespace engine {
 
@@ -23,7 +24,68 @@ uint32_t findFamily(const std::vector<VkQueueFamilyProperties>& families, VkQueu
     return kNoFamily;
 }
 
+// The queue of a host that uses it as well, for as long as this lives.
+class QueueLock {
+public:
+    explicit QueueLock(const ForeignDevice& foreign) : foreign_(foreign) {
+        if (foreign_.lock != nullptr) foreign_.lock(foreign_.user);
+    }
+    ~QueueLock() {
+        if (foreign_.unlock != nullptr) foreign_.unlock(foreign_.user);
+    }
+    QueueLock(const QueueLock&) = delete;
+    QueueLock& operator=(const QueueLock&) = delete;
+
+private:
+    const ForeignDevice& foreign_;
+};
+
+Error missing(const std::string& what) { return {ErrorCode::Feature, "the host's Vulkan device cannot be used: " + what}; }
+
+// What is needed of the device beyond what its physical device can.
+std::optional<Error> unfitFor(const ForeignDevice& foreign) {
+    if (foreign.instance == VK_NULL_HANDLE || foreign.physical == VK_NULL_HANDLE || foreign.device == VK_NULL_HANDLE ||
+        foreign.queue == VK_NULL_HANDLE)
+        return Error{ErrorCode::BadInput, "instance, physical device, device and queue are needed, all four"};
+    if ((foreign.lock == nullptr) != (foreign.unlock == nullptr))
+        return Error{ErrorCode::BadInput, "a queue is locked and unlocked: give both functions or neither"};
+    if (!foreign.long_integers) return missing("it was made without the feature shaderInt64; enable it in vkCreateDevice");
+    return std::nullopt;
+}
+
 } // namespace
+
+Result<std::unique_ptr<Device>> Device::adopt(const ForeignDevice& foreign) {
+    if (const auto unfit = unfitFor(foreign)) return *unfit;
+    std::unique_ptr<Device> device(new Device);
+    device->foreign_ = foreign;
+    if (auto opened = device->openForeign(); !opened) return opened.error();
+    return device;
+}
+
+Result<void> Device::openForeign() {
+    if (foreign_.get_proc_addr == nullptr) foreign_.get_proc_addr = loaderFunction();
+    if (foreign_.get_proc_addr == nullptr)
+        return Error{ErrorCode::Device, "no Vulkan loader on this machine; give the host's vkGetInstanceProcAddr"};
+    instance_vk_ = loadInstanceFunctions(foreign_.instance, foreign_.get_proc_addr);
+    if (instance_vk_.vkGetPhysicalDeviceProperties2 == nullptr)
+        return missing("its instance was made for Vulkan 1.0; ask for 1.1 in VkApplicationInfo::apiVersion");
+    physical_ = foreign_.physical;
+    if (const std::string lacks = missingRequirements(instance_vk_, physical_); !lacks.empty()) return missing("it " + lacks);
+    const auto families = queueFamilies();
+    if (foreign_.family >= families.size() || (families[foreign_.family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
+        return Error{ErrorCode::BadInput, "queue family " + std::to_string(foreign_.family) + " has no compute"};
+    readProperties();
+    features_ = foreign_.enabled;
+    if (gpuAssistedValidationIsOn()) features_.push_descriptors = false;
+    handle_ = foreign_.device;
+    compute_ = {foreign_.queue, foreign_.family, families[foreign_.family].timestampValidBits};
+    if ((families[foreign_.family].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) graphics_ = compute_;
+    loadDeviceTable(table_, foreign_.instance, foreign_.get_proc_addr, handle_);
+    if (features_.push_descriptors && table_.vkCmdPushDescriptorSetKHR == nullptr)
+        return missing("it is said to have VK_KHR_push_descriptor, and was made without");
+    return createShared();
+}
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     std::unique_ptr<Device> device(new Device);
@@ -35,21 +97,29 @@ Result<void> Device::open(const DeviceOptions& options) {
     auto instance = Instance::create();
     if (!instance) return instance.error();
     instance_ = std::move(*instance);
-    auto chosen = selectDevice(instance_->handle(), wantedDevice(options));
+    instance_vk_ = instance_->vk();
+    auto chosen = selectDevice(instance_vk_, instance_->handle(), wantedDevice(options));
     if (!chosen) return chosen.error();
     physical_ = *chosen;
-
-    info_ = describe(physical_, 0);
-    subgroup_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup_, {}};
-    vkGetPhysicalDeviceProperties2(physical_, &properties);
-    properties_ = properties.properties;
+    readProperties();
     minimal_ = options.minimal;
-    if (!minimal_) features_ = optionalFeatures(physical_);
-    if (options.force_pooled_descriptors || instance_->gpuAssistedValidation()) features_.push_descriptors = false;
+    if (!minimal_) features_ = optionalFeatures(instance_vk_, physical_);
+    if (options.force_pooled_descriptors || gpuAssistedValidationIsOn()) features_.push_descriptors = false;
 
     pickFamilies();
     if (auto made = createLogical(); !made) return made;
+    return createShared();
+}
+
+void Device::readProperties() {
+    info_ = describe(instance_vk_, physical_, 0);
+    subgroup_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup_, {}};
+    instance_vk_.vkGetPhysicalDeviceProperties2(physical_, &properties);
+    properties_ = properties.properties;
+}
+
+Result<void> Device::createShared() {
     memory_ = std::make_unique<MemoryPool>(*this);
     VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     const VkResult cached = table_.vkCreatePipelineCache(handle_, &cache, nullptr, &pipeline_cache_);
@@ -57,12 +127,16 @@ Result<void> Device::open(const DeviceOptions& options) {
     return {};
 }
 
-void Device::pickFamilies() {
+std::vector<VkQueueFamilyProperties> Device::queueFamilies() const {
     uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+    instance_vk_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    instance_vk_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    return families;
+}
 
+void Device::pickFamilies() {
+    const auto families = queueFamilies();
     compute_.family = findFamily(families, VK_QUEUE_COMPUTE_BIT, VK_QUEUE_GRAPHICS_BIT);
     if (compute_.family == kNoFamily) compute_.family = findFamily(families, VK_QUEUE_COMPUTE_BIT, 0);
     compute_.timestamp_bits = families[compute_.family].timestampValidBits;
@@ -93,9 +167,9 @@ Result<void> Device::createLogical() {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     info.pEnabledFeatures = &enabled;
-    const VkResult made = vkCreateDevice(physical_, &info, nullptr, &handle_);
+    const VkResult made = instance_vk_.vkCreateDevice(physical_, &info, nullptr, &handle_);
     if (made != VK_SUCCESS) return vulkanError("cannot open the device " + name(), made);
-    volkLoadDeviceTable(&table_, handle_);
+    loadDeviceTable(table_, instance_->handle(), instance_->getProcAddr(), handle_);
     table_.vkGetDeviceQueue(handle_, compute_.family, 0, &compute_.handle);
     if (graphics_.family != kNoFamily) table_.vkGetDeviceQueue(handle_, graphics_.family, 0, &graphics_.handle);
     return {};
@@ -103,10 +177,10 @@ Result<void> Device::createLogical() {
 
 Device::~Device() {
     if (handle_ == VK_NULL_HANDLE) return;
-    table_.vkDeviceWaitIdle(handle_);
+    waitIdle();
     if (pipeline_cache_ != VK_NULL_HANDLE) table_.vkDestroyPipelineCache(handle_, pipeline_cache_, nullptr);
     memory_.reset();
-    table_.vkDestroyDevice(handle_, nullptr);
+    if (!isForeign()) table_.vkDestroyDevice(handle_, nullptr);
 }
 
 VkSubgroupFeatureFlags Device::subgroupOperations() const {
@@ -118,6 +192,7 @@ Result<void> Device::submit(const Queue& queue, VkCommandBuffer commands, VkFenc
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands;
     const std::lock_guard lock(submit_mutex_);
+    const QueueLock with_host(foreign_);
     const VkResult submitted = table_.vkQueueSubmit(queue.handle, 1, &info, fence);
     if (submitted != VK_SUCCESS) return vulkanError("cannot submit to the device " + name(), submitted);
     return {};
@@ -125,7 +200,13 @@ Result<void> Device::submit(const Queue& queue, VkCommandBuffer commands, VkFenc
 
 void Device::waitIdle() {
     const std::lock_guard lock(submit_mutex_);
-    table_.vkDeviceWaitIdle(handle_);
+    if (!isForeign()) {
+        table_.vkDeviceWaitIdle(handle_);
+        return;
+    }
+    // Of all its queues the device may only be waited for by who has all of them.
+    const QueueLock with_host(foreign_);
+    table_.vkQueueWaitIdle(compute_.handle);
 }
 
 void Device::setName(VkObjectType type, uint64_t object, std::string_view name) const {
@@ -135,15 +216,15 @@ void Device::setName(VkObjectType type, uint64_t object, std::string_view name) 
     info.objectType = type;
     info.objectHandle = object;
     info.pObjectName = terminated.c_str();
-    vkSetDebugUtilsObjectNameEXT(handle_, &info);
+    instance_vk_.vkSetDebugUtilsObjectNameEXT(handle_, &info);
 }
 
 std::vector<DeviceInfo> listDevices() {
     auto instance = Instance::create();
     if (!instance) return {};
     std::vector<DeviceInfo> infos;
-    for (VkPhysicalDevice device : physicalDevices((*instance)->handle()))
-        infos.push_back(describe(device, static_cast<uint32_t>(infos.size())));
+    for (VkPhysicalDevice device : physicalDevices((*instance)->vk(), (*instance)->handle()))
+        infos.push_back(describe((*instance)->vk(), device, static_cast<uint32_t>(infos.size())));
     return infos;
 }
 

@@ -19,6 +19,23 @@ struct DeviceOptions {
     bool minimal = false;                  // nothing optional at all, as a host engine's device may be
 };
 
+// A device that another has made, whose owner keeps it, and all it was made from, for longer than what is made from it here.
+// What it was made with nobody can ask it: the owner says so.
+struct ForeignDevice {
+    PFN_vkGetInstanceProcAddr get_proc_addr = nullptr; // nullptr: that of this machine's loader
+    VkInstance instance = VK_NULL_HANDLE;              // for Vulkan 1.1 or later
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE; // of a family with compute
+    uint32_t family = 0;
+    bool long_integers = false; // shaderInt64 was enabled; it is needed
+    OptionalFeatures enabled;   // of what is used when present, what was enabled
+    // Where others use the queue as well: called before and after every use of it here, from the thread that uses it.
+    void (*lock)(void* user) = nullptr;
+    void (*unlock)(void* user) = nullptr;
+    void* user = nullptr;
+};
+
 struct Queue {
     VkQueue handle = VK_NULL_HANDLE;
     uint32_t family = 0;
@@ -28,6 +45,9 @@ struct Queue {
 class Device {
 public:
     static Result<std::unique_ptr<Device>> create(const DeviceOptions& options = {});
+    // Works on another's device. Errors: BadInput for handles that are none or do not belong together, Feature for what the
+    // device lacks or was made without, by name.
+    static Result<std::unique_ptr<Device>> adopt(const ForeignDevice& foreign);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -48,7 +68,11 @@ public:
     bool hasGraphics() const { return graphics_.handle != VK_NULL_HANDLE; }
     bool sharesQueueFamily() const { return compute_.family == graphics_.family; }
 
+    // Somebody else made it, and destroys it.
+    bool isForeign() const { return foreign_.device != VK_NULL_HANDLE; }
     VkDevice handle() const { return handle_; }
+    const InstanceFunctions& instanceFunctions() const { return instance_vk_; }
+    VkInstance instanceHandle() const { return isForeign() ? foreign_.instance : instance_->handle(); }
     VkPhysicalDevice physical() const { return physical_; }
     const VolkDeviceTable& vk() const { return table_; }
     VkPipelineCache pipelineCache() const { return pipeline_cache_; }
@@ -59,24 +83,31 @@ public:
 
     // Safe from any thread; both queues may be one.
     Result<void> submit(const Queue& queue, VkCommandBuffer commands, VkFence fence);
+    // For all that was submitted here; of a foreign device for all that its queue has.
     void waitIdle();
 
     // Errors and warnings of the validation layers about this device's instance; 0 without layers.
-    uint32_t validationMessageCount() const { return instance_->validationMessageCount(); }
+    uint32_t validationMessageCount() const { return instance_ ? instance_->validationMessageCount() : 0; }
     // The layer of Debian 12 (1.3.239) misreads push descriptors, and checks accesses against the end of the buffer rather
     // than of the view: push descriptors are left out, and arenas give every range a buffer of its own.
-    bool gpuAssistedValidation() const { return instance_->gpuAssistedValidation(); }
+    bool gpuAssistedValidation() const { return gpuAssistedValidationIsOn(); }
     // For messages and captures; does nothing without the debug extension.
     void setName(VkObjectType type, uint64_t object, std::string_view name) const;
-    bool hasDebugUtils() const { return instance_->hasDebugUtils(); }
+    bool hasDebugUtils() const { return instance_ && instance_->hasDebugUtils(); }
 
 private:
     Device() = default;
     Result<void> open(const DeviceOptions& options);
+    Result<void> openForeign();
+    void readProperties();
     Result<void> createLogical();
+    Result<void> createShared();
+    std::vector<VkQueueFamilyProperties> queueFamilies() const;
     void pickFamilies();
 
     std::unique_ptr<Instance> instance_;
+    ForeignDevice foreign_;
+    InstanceFunctions instance_vk_;
     DeviceInfo info_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties_{};

@@ -13,27 +13,27 @@ namespace {
 constexpr uint32_t kRequiredStorageBuffers = 16;
 constexpr uint32_t kRequiredPushBytes = 128;
 
-bool hasExtension(VkPhysicalDevice device, const char* extension) {
+bool hasExtension(const InstanceFunctions& vk, VkPhysicalDevice device, const char* extension) {
     uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> properties(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, properties.data());
+    vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, properties.data());
     return std::ranges::any_of(properties, [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
 }
 
-bool hasComputeQueue(VkPhysicalDevice device) {
+bool hasComputeQueue(const InstanceFunctions& vk, VkPhysicalDevice device) {
     uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     return std::ranges::any_of(families, [](const auto& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
 }
 
-std::string driverOf(VkPhysicalDevice device) {
-    if (!hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) return "";
+std::string driverOf(const InstanceFunctions& vk, VkPhysicalDevice device) {
+    if (!hasExtension(vk, device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) return "";
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
-    vkGetPhysicalDeviceProperties2(device, &properties);
+    vk.vkGetPhysicalDeviceProperties2(device, &properties);
     return std::string(driver.driverName) + " " + driver.driverInfo;
 }
 
@@ -51,9 +51,9 @@ std::optional<uint32_t> asIndex(std::string_view text) {
 }
 
 // Lower is better.
-int rank(VkPhysicalDevice device) {
+int rank(const InstanceFunctions& vk, VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device, &properties);
+    vk.vkGetPhysicalDeviceProperties(device, &properties);
     switch (properties.deviceType) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
     case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
@@ -79,67 +79,67 @@ bool matches(const DeviceInfo& device, std::string_view wanted) {
 
 } // namespace
 
-std::string missingRequirements(VkPhysicalDevice device) {
+std::string missingRequirements(const InstanceFunctions& vk, VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device, &properties);
+    vk.vkGetPhysicalDeviceProperties(device, &properties);
     VkPhysicalDeviceFeatures features;
-    vkGetPhysicalDeviceFeatures(device, &features);
+    vk.vkGetPhysicalDeviceFeatures(device, &features);
     std::string missing;
     const auto require = [&](bool present, const char* what) {
         if (!present) missing += (missing.empty() ? "lacks " : ", ") + std::string(what);
     };
     require(properties.apiVersion >= VK_API_VERSION_1_1, "Vulkan 1.1");
-    require(hasComputeQueue(device), "a compute queue");
+    require(hasComputeQueue(vk, device), "a compute queue");
     require(features.shaderInt64 == VK_TRUE, "64-bit integers in shaders");
     require(properties.limits.maxPerStageDescriptorStorageBuffers >= kRequiredStorageBuffers, "16 storage buffers per stage");
     require(properties.limits.maxPushConstantsSize >= kRequiredPushBytes, "128 bytes of push constants");
     return missing;
 }
 
-OptionalFeatures optionalFeatures(VkPhysicalDevice device) {
+OptionalFeatures optionalFeatures(const InstanceFunctions& vk, VkPhysicalDevice device) {
     VkPhysicalDeviceFeatures features;
-    vkGetPhysicalDeviceFeatures(device, &features);
+    vk.vkGetPhysicalDeviceFeatures(device, &features);
     OptionalFeatures optional;
-    optional.push_descriptors = hasExtension(device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    optional.push_descriptors = hasExtension(vk, device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     optional.multi_draw_indirect = features.multiDrawIndirect == VK_TRUE;
     optional.draw_indirect_first_instance = features.drawIndirectFirstInstance == VK_TRUE;
-    optional.driver_properties = hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+    optional.driver_properties = hasExtension(vk, device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     optional.doubles = features.shaderFloat64 == VK_TRUE;
     optional.shader_stores = features.fragmentStoresAndAtomics == VK_TRUE && features.vertexPipelineStoresAndAtomics == VK_TRUE;
     return optional;
 }
 
-std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
+std::vector<VkPhysicalDevice> physicalDevices(const InstanceFunctions& vk, VkInstance instance) {
     uint32_t count = 0;
-    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    vk.vkEnumeratePhysicalDevices(instance, &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
-    vkEnumeratePhysicalDevices(instance, &count, devices.data());
+    vk.vkEnumeratePhysicalDevices(instance, &count, devices.data());
     return devices;
 }
 
-DeviceInfo describe(VkPhysicalDevice device, uint32_t index) {
+DeviceInfo describe(const InstanceFunctions& vk, VkPhysicalDevice device, uint32_t index) {
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device, &properties);
+    vk.vkGetPhysicalDeviceProperties(device, &properties);
     DeviceInfo info;
     info.index = index;
     info.name = properties.deviceName;
-    info.driver = driverOf(device);
+    info.driver = driverOf(vk, device);
     info.cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    info.why_not = missingRequirements(device);
+    info.why_not = missingRequirements(vk, device);
     info.usable = info.why_not.empty();
     return info;
 }
 
-Result<VkPhysicalDevice> selectDevice(VkInstance instance, std::string_view wanted) {
-    const std::vector<VkPhysicalDevice> devices = physicalDevices(instance);
+Result<VkPhysicalDevice> selectDevice(const InstanceFunctions& vk, VkInstance instance, std::string_view wanted) {
+    const std::vector<VkPhysicalDevice> devices = physicalDevices(vk, instance);
     std::vector<DeviceInfo> infos;
     for (uint32_t i = 0; i < devices.size(); ++i)
-        infos.push_back(describe(devices[i], i));
+        infos.push_back(describe(vk, devices[i], i));
 
     std::optional<uint32_t> best;
     for (const DeviceInfo& info : infos) {
         if (!info.usable || (!wanted.empty() && !matches(info, wanted))) continue;
-        if (!best || rank(devices[info.index]) < rank(devices[*best])) best = info.index;
+        if (!best || rank(vk, devices[info.index]) < rank(vk, devices[*best])) best = info.index;
     }
     if (best) return devices[*best];
     const std::string what = wanted.empty() ? "no usable device" : "no usable device matches \"" + std::string(wanted) + "\"";

@@ -1,7 +1,7 @@
 // Which physical device, and why not the others.
 #pragma once
 
-#include "engine/vulkan.h"
+#include "engine/instance_functions.h"
 
 #include <string>
 #include <string_view>
@@ -29,15 +29,15 @@ struct OptionalFeatures {
 };
 
 // The one list of what is required of a device. Empty: it will do.
-std::string missingRequirements(VkPhysicalDevice device);
+std::string missingRequirements(const InstanceFunctions& vk, VkPhysicalDevice device);
 
 // The one list of what is used when present.
-OptionalFeatures optionalFeatures(VkPhysicalDevice device);
+OptionalFeatures optionalFeatures(const InstanceFunctions& vk, VkPhysicalDevice device);
 
-std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance);
-DeviceInfo describe(VkPhysicalDevice device, uint32_t index);
+std::vector<VkPhysicalDevice> physicalDevices(const InstanceFunctions& vk, VkInstance instance);
+DeviceInfo describe(const InstanceFunctions& vk, VkPhysicalDevice device, uint32_t index);
 
 // By index, by a part of the name (case does not matter), or, with nothing asked, the fastest kind that is usable.
-Result<VkPhysicalDevice> selectDevice(VkInstance instance, std::string_view wanted);
+Result<VkPhysicalDevice> selectDevice(const InstanceFunctions& vk, VkInstance instance, std::string_view wanted);
 
 } // namespace engine

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <vector>
 
 namespace engine {
@@ -13,22 +12,32 @@ namespace {
 
 std::atomic<uint32_t> total_messages = 0;
 
-// volk keeps the functions of an instance in globals; all instances get the same ones from the loader.
-std::mutex volk_mutex;
+// What is asked of no instance.
+template <class Function>
+Function globalFunction(PFN_vkGetInstanceProcAddr get, const char* name) {
+    return get == nullptr ? nullptr : reinterpret_cast<Function>(get(nullptr, name));
+}
 
-bool instanceHas(const char* extension) {
+bool instanceHas(PFN_vkGetInstanceProcAddr get, const char* extension) {
+    const auto list = globalFunction<PFN_vkEnumerateInstanceExtensionProperties>(get, "vkEnumerateInstanceExtensionProperties");
+    if (list == nullptr) return false;
     uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    list(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> properties(count);
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, properties.data());
+    list(nullptr, &count, properties.data());
     return std::ranges::any_of(properties, [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
 }
 
 // At exit the leak checker names who leaked, and cannot once the drivers have been unloaded: one instance keeps them.
-void keepDriversForLeakChecker([[maybe_unused]] const VkInstanceCreateInfo& info) {
+void keepDriversForLeakChecker([[maybe_unused]] PFN_vkCreateInstance create,
+                               [[maybe_unused]] const VkInstanceCreateInfo& info) {
 #ifdef __SANITIZE_ADDRESS__
-    static VkInstance kept = VK_NULL_HANDLE;
-    if (kept == VK_NULL_HANDLE) vkCreateInstance(&info, nullptr, &kept);
+    static VkInstance kept = [&] {
+        VkInstance instance = VK_NULL_HANDLE;
+        create(&info, nullptr, &instance);
+        return instance;
+    }();
+    static_cast<void>(kept);
 #endif
 }
 
@@ -37,8 +46,10 @@ void keepDriversForLeakChecker([[maybe_unused]] const VkInstanceCreateInfo& info
 uint32_t validationMessageTotal() { return total_messages; }
 
 Result<std::unique_ptr<Instance>> Instance::create() {
-    const std::lock_guard lock(volk_mutex);
-    if (volkInitialize() != VK_SUCCESS || volkGetInstanceVersion() < VK_API_VERSION_1_1) {
+    const PFN_vkGetInstanceProcAddr get = loaderFunction();
+    const auto version = globalFunction<PFN_vkEnumerateInstanceVersion>(get, "vkEnumerateInstanceVersion");
+    uint32_t has = 0;
+    if (version == nullptr || version(&has) != VK_SUCCESS || has < VK_API_VERSION_1_1) {
         return Error{ErrorCode::Device, "no Vulkan 1.1 loader on this machine (Debian: libvulkan1 mesa-vulkan-drivers)"};
     }
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
@@ -47,25 +58,27 @@ Result<std::unique_ptr<Instance>> Instance::create() {
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &application;
     const char* debug_utils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    const bool debug = instanceHas(debug_utils);
+    const bool debug = instanceHas(get, debug_utils);
     info.enabledExtensionCount = debug ? 1 : 0;
     info.ppEnabledExtensionNames = &debug_utils;
 
     std::unique_ptr<Instance> instance(new Instance);
-    const VkResult made = vkCreateInstance(&info, nullptr, &instance->handle_);
+    const auto create = globalFunction<PFN_vkCreateInstance>(get, "vkCreateInstance");
+    const VkResult made = create(&info, nullptr, &instance->handle_);
     if (made != VK_SUCCESS) return vulkanError("cannot create a Vulkan instance", made);
-    keepDriversForLeakChecker(info);
-    volkLoadInstanceOnly(instance->handle_);
+    keepDriversForLeakChecker(create, info);
+    instance->get_ = get;
+    instance->vk_ = loadInstanceFunctions(instance->handle_, get);
     if (debug) instance->listen();
     return instance;
 }
 
 Instance::~Instance() {
-    if (messenger_ != VK_NULL_HANDLE) vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
-    if (handle_ != VK_NULL_HANDLE) vkDestroyInstance(handle_, nullptr);
+    if (messenger_ != VK_NULL_HANDLE) vk_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
+    if (handle_ != VK_NULL_HANDLE) vk_.vkDestroyInstance(handle_, nullptr);
 }
 
-bool Instance::gpuAssistedValidation() const {
+bool gpuAssistedValidationIsOn() {
     const char* layers = std::getenv("VK_LAYER_ENABLES");
     return layers != nullptr && std::strstr(layers, "GPU_ASSISTED") != nullptr;
 }
@@ -76,7 +89,7 @@ void Instance::listen() {
     info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     info.pfnUserCallback = onMessage;
     info.pUserData = this;
-    if (vkCreateDebugUtilsMessengerEXT(handle_, &info, nullptr, &messenger_) != VK_SUCCESS) messenger_ = VK_NULL_HANDLE;
+    if (vk_.vkCreateDebugUtilsMessengerEXT(handle_, &info, nullptr, &messenger_) != VK_SUCCESS) messenger_ = VK_NULL_HANDLE;
 }
 
 VkBool32 Instance::onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,

@@ -1,7 +1,7 @@
 // A Vulkan instance and, where the debug extension is there, the ear that hears the validation layers.
 #pragma once
 
-#include "engine/vulkan.h"
+#include "engine/instance_functions.h"
 
 #include <atomic>
 #include <cstdint>
@@ -18,9 +18,9 @@ public:
     Instance& operator=(const Instance&) = delete;
 
     VkInstance handle() const { return handle_; }
+    PFN_vkGetInstanceProcAddr getProcAddr() const { return get_; }
+    const InstanceFunctions& vk() const { return vk_; }
     bool hasDebugUtils() const { return messenger_ != VK_NULL_HANDLE; }
-    // Asked for by VK_LAYER_ENABLES.
-    bool gpuAssistedValidation() const;
     uint32_t validationMessageCount() const { return validation_messages_; }
 
 private:
@@ -30,10 +30,15 @@ private:
                                                     VkDebugUtilsMessageTypeFlagsEXT types,
                                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
 
+    PFN_vkGetInstanceProcAddr get_ = nullptr;
+    InstanceFunctions vk_;
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     std::atomic<uint32_t> validation_messages_ = 0;
 };
+
+// Asked for by VK_LAYER_ENABLES.
+bool gpuAssistedValidationIsOn();
 
 // Errors and warnings of the validation layers since the process began, over all devices, also those destroyed since.
 uint32_t validationMessageTotal();

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <thread>
 
@@ -40,6 +41,16 @@ Result<void> checkInterface(const Kernel& kernel, const VkPhysicalDeviceLimits& 
         return refused(kernel.name, "has a workgroup of " + std::to_string(r.local_size[0]) + " lanes, the device takes 1 to " +
                                         std::to_string(most_lanes));
     return {};
+}
+
+// What is thrown on a thread ends the process.
+template <class Make>
+Result<const Kernel*> tryTo(Make&& make) {
+    try {
+        return make();
+    } catch (const std::exception& thrown) {
+        return Error{ErrorCode::Internal, std::string("making a kernel: ") + thrown.what()};
+    }
 }
 
 void specializeLocalSize(Reflection& reflection, std::span<const SpecConstant> constants) {
@@ -81,7 +92,7 @@ Result<void> KernelLibrary::warm(std::span<const KernelRequest> requests) {
     std::optional<Error> failure;
     const auto work = [&] {
         for (size_t i = next++; i < requests.size(); i = next++) {
-            auto made = get(requests[i].name, requests[i].spec);
+            auto made = tryTo([&] { return get(requests[i].name, requests[i].spec); });
             if (made) continue;
             const std::lock_guard lock(failure_mutex);
             if (!failure) failure = made.error();

@@ -35,14 +35,24 @@ void compileOnTwin(const std::stop_token& stop, const std::string& name, std::sp
     }
 }
 
+// What a thread throws ends the process, and nothing here is worth that: whoever asks for the kernel finds out.
+template <class Work>
+void quietly(Work&& work) {
+    try {
+        work();
+    } catch (...) {
+    }
+}
+
 } // namespace
 
 KernelWarmup::KernelWarmup(Device& device, KernelLibrary& library, std::vector<std::string_view> names) {
-    if (device.gpuAssistedValidation()) return; // the layer's own work on every kernel would be done twice
+    if (device.gpuAssistedValidation()) return;       // the layer's own work on every kernel would be done twice
+    if (device.isCpu() && device.isForeign()) return; // a host has not asked for a second device in its process
     if (device.isCpu()) {
         thread_ = std::jthread([device_name = device.name(), modules = library.modules(), common = library.common(),
                                 names = std::move(names)](const std::stop_token& stop) {
-            compileOnTwin(stop, device_name, modules, common, names);
+            quietly([&] { compileOnTwin(stop, device_name, modules, common, names); });
         });
         return;
     }
@@ -50,7 +60,7 @@ KernelWarmup::KernelWarmup(Device& device, KernelLibrary& library, std::vector<s
         std::vector<KernelRequest> requests;
         for (const std::string_view name : names)
             requests.push_back({name, {}});
-        static_cast<void>(library.warm(requests));
+        quietly([&] { static_cast<void>(library.warm(requests)); });
     });
 }
 

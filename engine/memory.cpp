@@ -46,7 +46,7 @@ void returnTo(MemoryBlock& block, VkDeviceSize offset, VkDeviceSize size) {
 } // namespace
 
 MemoryPool::MemoryPool(Device& device) : device_(device) {
-    vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties_);
+    device.instanceFunctions().vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties_);
 }
 
 MemoryPool::~MemoryPool() {

@@ -14,6 +14,7 @@ enum class ErrorCode {
     BadInput, // a file, an option or a name that cannot be used as given
     Capacity, // a pool or buffer that is too small; the message names it and by how much
     Device,   // no usable device, or one that failed
+    Feature,  // something that a device lacks or was made without; the message names it
     Internal, // a bug of ours
 };
 

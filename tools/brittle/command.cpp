@@ -16,7 +16,8 @@ ExitCode exitCode(engine::ErrorCode code) {
     switch (code) {
     case engine::ErrorCode::BadInput: return kBadInput;
     case engine::ErrorCode::Capacity: return kCapacity;
-    case engine::ErrorCode::Device: return kDeviceError;
+    case engine::ErrorCode::Device:
+    case engine::ErrorCode::Feature: return kDeviceError;
     case engine::ErrorCode::Internal: return kInternalError;
     }
     return kInternalError;
