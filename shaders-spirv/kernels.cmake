@@ -148,6 +148,11 @@ foreach(name IN ITEMS open_event check_breaking find_blows choose_blows hold_blo
         write_vertices write_triangles write_edges)
     kernel(breaking/${name}.comp)
 endforeach()
+kernel(breaking/admit_breaking.comp NAME admit_strikes DEFINES STRIKES=1)
+foreach(name IN ITEMS measure_strikes claim_strikes count_strikes judge_strikes wake_struck raise_strikes choose_strikes)
+    kernel(breaking/${name}.comp)
+endforeach()
+kernel(draw/write_draws.comp)
 kernel(primitives/weld_points.comp NAME weld_corners DEFINES WORDS=4 STRIDE=4)
 kernel(primitives/weld_points.comp NAME weld_sides DEFINES WORDS=2 STRIDE=2)
 

@@ -8,6 +8,7 @@
 #include "shaders-spirv/shared/collider.h"
 #include "shaders-spirv/shared/contact.h"
 #include "shaders-spirv/shared/debris.h"
+#include "shaders-spirv/shared/drawing.h"
 #include "shaders-spirv/shared/dust.h"
 #include "shaders-spirv/shared/fragment_record.h"
 #include "shaders-spirv/shared/hull.h"
@@ -15,6 +16,7 @@
 #include "shaders-spirv/shared/narrow_phase.h"
 #include "shaders-spirv/shared/pool.h"
 #include "shaders-spirv/shared/scene.h"
+#include "shaders-spirv/shared/strike.h"
 #include "tests/engine/test_device.h"
 
 #include <cstddef>
@@ -92,7 +94,17 @@ const std::vector<Row>& rows() {
         {"BreakEvent",
          sizeof(gpu::BreakEvent),
          {MEMBER(BreakEvent, what), MEMBER(BreakEvent, made), MEMBER(BreakEvent, lacked), MEMBER(BreakEvent, sector),
-          MEMBER(BreakEvent, offset), MEMBER(BreakEvent, along), MEMBER(BreakEvent, blow), MEMBER(BreakEvent, energies)}},
+          MEMBER(BreakEvent, offset), MEMBER(BreakEvent, along), MEMBER(BreakEvent, blow), MEMBER(BreakEvent, energies),
+          MEMBER(BreakEvent, born)}},
+        {"Strike", sizeof(gpu::Strike), {MEMBER(Strike, sector), MEMBER(Strike, offset), MEMBER(Strike, energy)}},
+        {"StrikeRecord",
+         sizeof(gpu::StrikeRecord),
+         {MEMBER(StrikeRecord, what), MEMBER(StrikeRecord, blow), MEMBER(StrikeRecord, arm), MEMBER(StrikeRecord, along)}},
+        {"BodyLook", sizeof(gpu::BodyLook), {MEMBER(BodyLook, surface)}},
+        {"DrawnFrom", sizeof(gpu::DrawnFrom), {MEMBER(DrawnFrom, sector), MEMBER(DrawnFrom, offset)}},
+        {"DrawnBody",
+         sizeof(gpu::DrawnBody),
+         {MEMBER(DrawnBody, body), MEMBER(DrawnBody, step_made), MEMBER(DrawnBody, origin), MEMBER(DrawnBody, left)}},
         {"DustShare", sizeof(gpu::DustShare), {MEMBER(DustShare, volume), MEMBER(DustShare, cells)}},
         {"DustParticle",
          sizeof(gpu::DustParticle),

@@ -13,6 +13,12 @@
 #include "shared/breaking.h"
 #include "shared/scene.h"
 #include "shared/solver.h"
+#include "shared/strike.h"
+
+// Built twice: STRIKES is the step in which a host strikes by hand.
+#ifndef STRIKES
+#define STRIKES 0
+#endif
 
 GROUP_KERNEL;
 READS(0, uint, world_counts);
@@ -29,6 +35,9 @@ UPDATES(10, BrokenBody, broken);
 UPDATES(11, uint, counts); // of the event
 UPDATES(12, uint, args);
 READS(13, SceneVertex, vertices);
+#if STRIKES
+READS(14, StrikeRecord, records);
+#endif
 layout(push_constant) uniform Push {
     uint most_bodies, most_triangles, most_sites; // of one step
     uint most_fragments; // of one body
@@ -47,12 +56,14 @@ shared uint admitted[MOST_BREAKING];
 shared float reach_of[MOST_BREAKING];
 shared uint found, reach_sum;
 
+bool isByHand(uint pair) { return STRIKES != 0 && pair != NO_INDEX && (pair & STRUCK_BY_HAND) != 0u; }
+
 uint sideOf(uint body, uint pair) { return memory[pair].ids.x == body ? BREAKS_A : BREAKS_B; }
 
 // Chosen by both, unless the other takes part in any number of blows, and hard enough for this one.
 bool isBroken(uint body) {
     uint pair = chosen[body];
-    if (pair == NO_INDEX) return false;
+    if (pair == NO_INDEX || isByHand(pair)) return pair != NO_INDEX;
     uvec2 ids = memory[pair].ids.xy;
     uint other = ids.x == body ? ids.y : ids.x;
     bool agreed = chosen[other] == pair || !takesPart(other);
@@ -79,7 +90,13 @@ void listBroken(uint lane) {
     }
 }
 
-BlowRecord blowOf(uint body) { return blows[chosen[body]]; }
+BlowRecord blowOf(uint body) {
+    uint pair = chosen[body];
+#if STRIKES
+    if (isByHand(pair)) return BlowRecord(uvec4(BREAKS_A, 0u, 0u, 0u), records[body].blow, vec4(records[body].arm.xyz, 0.0), vec4(0.0));
+#endif
+    return blows[pair];
+}
 
 // Of the blow's energy, what is this body's.
 float joulesOf(BlowRecord blow) { return blow.blow.z * (blow.sides.x == (BREAKS_A | BREAKS_B) ? 0.5 : 1.0); }
@@ -87,7 +104,8 @@ float joulesOf(BlowRecord blow) { return blow.blow.z * (blow.sides.x == (BREAKS_
 // Of the blow, from the body's center of mass, world axes.
 vec3 armOf(uint body) {
     BlowRecord blow = blowOf(body);
-    return memory[chosen[body]].ids.x != body ? blow.arm_b.xyz : blow.arm_a.xyz;
+    uint pair = chosen[body];
+    return !isByHand(pair) && memory[pair].ids.x != body ? blow.arm_b.xyz : blow.arm_a.xyz;
 }
 
 // To the furthest place of its surface's bounds.
@@ -243,6 +261,9 @@ float leastRadiusFor(uint body, uint sites, float furthest) {
 
 // Where the contact has grown to when it presses most (Hertz). Flat is what does not move: it is larger than what hits it.
 float contactRadiusOf(uint body, uint other, BlowRecord blow) {
+#if STRIKES
+    if (other == NO_INDEX) return records[body].arm.w;
+#endif
     float curved = 1.0 / shapes[body].inverse_inertia[2].w + (bodies[other].offset.w != 0.0 ? 1.0 / shapes[other].inverse_inertia[2].w : 0.0);
     uint material = breakable[other].surface.w;
     float other_modulus = material != NO_INDEX ? cards[material].elastic.y : float(RIGID_MODULUS), own = cards[breakable[body].surface.w].elastic.y;
@@ -284,10 +305,14 @@ void setRecord(uint k, uint body, uint other, uint sites, Rays rays, BlowRecord 
 
 void setBroken(uint k, uint body, uint sites, float paid, Rays rays) {
     uint pair = chosen[body];
-    BlowRecord blow = blows[pair];
-    bool is_b = memory[pair].ids.x != body;
-    uint other = is_b ? memory[pair].ids.x : memory[pair].ids.y;
-    vec3 normal = memory[pair].normal.xyz;
+    BlowRecord blow = blowOf(body);
+    bool by_hand = isByHand(pair), is_b = !by_hand && memory[pair].ids.x != body;
+    uint other = by_hand ? NO_INDEX : is_b ? memory[pair].ids.x : memory[pair].ids.y;
+    vec3 normal = vec3(0.0), arm = is_b ? blow.arm_b.xyz : blow.arm_a.xyz;
+    if (!by_hand) normal = memory[pair].normal.xyz;
+#if STRIKES
+    if (by_hand) normal = records[body].along.xyz;
+#endif
     float joules = cards[breakable[body].surface.w].cracks.z * joulesOf(blow);
     broken[k].ids = uvec4(body, other, pair, is_b ? 1u : 0u);
     broken[k].blow = vec4(blow.blow.xy, joules, 0.0);

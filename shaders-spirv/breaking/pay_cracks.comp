@@ -77,9 +77,19 @@ void push(Mover m, vec3 impulse) {
     bodies[m.body].spin.xyz = spinOf(ownInverseInertia(shapes[m.body]), bodies[m.body].turn, momentum);
 }
 
+// What is struck by hand is paid for by the hand.
+void payByHand(uint k, float joules) {
+    float energy = energyOfMotion(moverOf(broken[k].ids.x, vec3(0.0)));
+    ledger[k].energies = vec4(energy, energy, joules, cracks[k]);
+}
+
 // Both at one place, or the pair would gain angular momentum.
 void pay(uint k, float joules) {
     uvec2 ids = broken[k].ids.xy;
+    if (ids.y == NO_INDEX) {
+        payByHand(k, joules);
+        return;
+    }
     vec3 n = broken[k].along.xyz, arm = broken[k].place.xyz;
     Mover own = moverOf(ids.x, arm), other = moverOf(ids.y, arm - wayBetween(ids.x, ids.y));
     if (other.inverse_mass == 0.0) other.arm = vec3(0.0); // of an endless plane, say

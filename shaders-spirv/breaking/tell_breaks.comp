@@ -40,6 +40,8 @@ float densityOf(uint body) {
     return inverse_mass > 0.0 ? 1.0 / (inverse_mass * breakable[body].form.x) : cards[breakable[body].surface.w].elastic.x;
 }
 
+uint bornIn(uint body) { return uint(breakable[body].balance.w); }
+
 BreakEvent eventOf(uint k) {
     BrokenBody hit = broken[k];
     uint body = hit.ids.x;
@@ -56,6 +58,7 @@ BreakEvent eventOf(uint k) {
     event.along = vec4(hit.along.xyz, hit.share.y);
     event.blow = hit.blow;
     event.energies = why == 0u ? ledger[k].energies : vec4(0.0);
+    event.born = uvec4(bornIn(body), hit.ids.y != NO_INDEX ? bornIn(hit.ids.y) : 0u, 0u, 0u);
     return event;
 }
 

@@ -72,7 +72,7 @@ struct BlowRecord {
 
 // What a body that breaks in this step was hit by, in the order of BreakingRecords.
 struct BrokenBody {
-    uvec4 ids;  // body, the one that it was hit by, pair, 1 where it is the pair's B
+    uvec4 ids;  // body, the one that it was hit by, NO_INDEX for a hand; pair, 1 where it is the pair's B
     vec4 blow;  // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took, once it is known
     vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
     vec4 along; // normal, from the body to the other
@@ -93,7 +93,7 @@ struct DustShare {
 
 // What the host is told of it. Of two that break each other, the first one's energies are those of both.
 struct BreakEvent {
-    uvec4 what;    // step, counted from 1; body, what hit it, its material
+    uvec4 what;    // step, counted from 1; body, what hit it, NO_INDEX for a hand; its material
     uvec4 made;    // fragments that are bodies; 0, or WHOLE_*, why the body stayed whole; of WHOLE_FAILED the count of fracture
                    // that there was no room for and how much it would have been, 0 and 0 where it was something else
     uvec4 lacked;  // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
@@ -103,6 +103,7 @@ struct BreakEvent {
                    // where the budget of one body has cut them short
     vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
     vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack
+    uvec4 born;    // the steps that the body and what hit it were made in, 0 for what has always been: somebody else may have their slots
 };
 #define BREAK_EVENTS 1024 /* that are kept */
 
@@ -137,7 +138,7 @@ GPU_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 128 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
               sizeof(gpu::BlowRecord) == 64);
-static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 128 && sizeof(gpu::DustShare) == 8 &&
+static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 144 && sizeof(gpu::DustShare) == 8 &&
               sizeof(gpu::Birth) == 48);
 #endif
 #endif

@@ -43,7 +43,18 @@ public:
         return fill(contents);
     }
 
-    void recordBlows(const Step& s) override {
+    // What it needs is made when somebody first strikes.
+    Result<void> recordStrikes(const Step& s, std::span<const HandBlow> blows) override {
+        if (!strikes_) {
+            auto made = Strikes::create(device_, sizes_.bodies, room_.pools.capacity[POOL_PIECES]);
+            if (!made) return made.error();
+            strikes_ = std::move(*made);
+        }
+        strikes_->recordJudging(s, l_, blows);
+        return {};
+    }
+
+    void recordBlows(const Step& s, bool struck) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("blows");
         s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
@@ -53,23 +64,31 @@ public:
         s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), find,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
                       s.b.steps, p_.blows, p_.hardest});
-        const uint32_t struck[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
-        s.record.runGroups("publish_if", 1, struck, {world, s.record.args()});
+        if (struck) strikes_->recordRaising(s, p_);
+        const uint32_t publish[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
+        s.record.runGroups("publish_if", 1, publish, {world, s.record.args()});
         s.record.run("choose_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
                      {world, s.now.contacts, p_.blows, p_.hardest, p_.chosen});
         s.record.run("hold_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
                      {world, s.now.contacts, s.b.bodies, p_.blows, p_.chosen, s.b.step.touches, s.b.step.shares});
+        if (struck) strikes_->recordChoice(s, p_);
         s.record.commands().endLabel();
     }
 
-    void recordAdmission(const Step& s) override {
+    void recordAdmission(const Step& s, bool struck) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("admission");
         const uint32_t admit[] = {room_.step_bodies, room_.step_triangles, room_.step_sites, room_.most_fragments,
                                   static_cast<uint32_t>(s.settings.breaking_seed)};
-        s.record.runGroups("admit_breaking", 1, admit,
-                           {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
-                            l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices});
+        if (struck)
+            s.record.runGroups("admit_strikes", 1, admit,
+                               {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
+                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,
+                                strikes_->records()});
+        else
+            s.record.runGroups("admit_breaking", 1, admit,
+                               {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
+                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices});
         s.record.commands().endLabel();
     }
 
@@ -127,6 +146,7 @@ public:
     BufferView arguments() const override { return event_.b.args; }
     BufferView surfaceVertices() const override { return l_.surface_vertices; }
     BufferView breakable() const override { return l_.breakable; }
+    std::optional<BufferView> clocks() const override { return debris_ ? std::optional(debris_->clocks()) : std::nullopt; }
 
     Result<Dust> dust() const override { return dust_ ? dust_->read() : Result<Dust>(Dust()); }
     Result<std::vector<float>> fades(uint32_t slots) const override {
@@ -214,7 +234,7 @@ private:
         const auto laid_out = layOutAll(*plan, *other, contents);
         if (!laid_out) return laid_out.error();
         if (*laid_out > device_.limits().maxStorageBufferRange) return tooLarge(*laid_out);
-        auto lasting = engine::ScratchArena::create(device_, plan->peak(), "breaking"),
+        auto lasting = engine::ScratchArena::create(device_, plan->peak(), "breaking", VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
              passing = engine::ScratchArena::create(device_, other->peak(), "breaking, in a step");
         if (!lasting) return lasting.error();
         if (!passing) return passing.error();
@@ -285,6 +305,7 @@ private:
     VkDeviceSize fracture_begin_ = 0; // of what fracturing needs, in what is made anew
     std::unique_ptr<DustRing> dust_;
     std::unique_ptr<Debris> debris_;
+    std::unique_ptr<Strikes> strikes_;
 };
 
 } // namespace

@@ -7,9 +7,12 @@
 #pragma once
 
 #include "modules/brittle/breaking/room_to_break.h"
+#include "modules/brittle/breaking/strikes.h"
 #include "modules/brittle/dynamics/step.h"
 
 #include <memory>
+#include <optional>
+#include <span>
 
 namespace brittle {
 
@@ -22,10 +25,13 @@ public:
                                                             const WorldSizes& world, uint32_t group_size);
     virtual ~Breaking() = default;
 
-    virtual void recordBlows(const Step& step) = 0;
+    // Of a step in which a host strikes by hand: whom, before it is decided who sleeps. `struck`, of what follows: whether that
+    // has been recorded.
+    virtual engine::Result<void> recordStrikes(const Step& step, std::span<const HandBlow> blows) = 0;
+    virtual void recordBlows(const Step& step, bool struck) = 0;
     // Who breaks, once nothing can fail any more that the step needs: a step that is not made breaks nothing. Bodies stand as
     // they did when it began.
-    virtual void recordAdmission(const Step& step) = 0;
+    virtual void recordAdmission(const Step& step, bool struck) = 0;
     virtual engine::Result<void> recordEvent(const Step& step) = 0;
 
     // Since `heard`, which is brought up to now.
@@ -38,6 +44,8 @@ public:
     // SceneVertices, three a triangle, of all surfaces; gpu::BreakableBody, a body each.
     virtual engine::BufferView surfaceVertices() const = 0;
     virtual engine::BufferView breakable() const = 0;
+    // gpu::DebrisClock, a body each; none without the effect `debris_lifetime`.
+    virtual std::optional<engine::BufferView> clocks() const = 0;
     // What flies of all that was too small for a body; nothing without the effect `dust`.
     virtual engine::Result<Dust> dust() const = 0;
     // How much is left of each body, from 1 to 0, by slot, of the first so many; 1 without the effect `debris_lifetime`.

@@ -24,6 +24,7 @@ public:
     // How much is left of each fragment, from 1 down to 0, by slot, of the first so many.
     engine::Result<std::vector<float>> fades(uint32_t slots, const StepSettings& settings) const;
     std::vector<engine::BufferView> stateViews() const { return {clocks_}; }
+    engine::BufferView clocks() const { return clocks_; }
     std::vector<NamedBuffer> named() const;
 
 private:

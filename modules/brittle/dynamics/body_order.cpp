@@ -42,6 +42,8 @@ WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
         sorted.shapes.push_back(shape);
         sorted.bodies.push_back(contents.bodies[body]);
         sorted.ids.push_back(contents.ids[body]);
+        if (!contents.looks.empty())
+            sorted.looks.push_back(body < contents.looks.size() ? contents.looks[body] : gpu::BodyLook{});
         if (!contents.breakable.empty())
             sorted.breakable.push_back(body < contents.breakable.size() ? contents.breakable[body] : unbreakable());
     }

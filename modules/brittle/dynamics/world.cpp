@@ -10,6 +10,8 @@
 #include "modules/brittle/fracture/upload.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -50,6 +52,8 @@ public:
 
     // Once for each of the two memories that take turns.
     Result<void> record() {
+        by_others_[0].reset();
+        by_others_[1].reset();
         submitted_[0] = submitted_[1] = false;
         for (uint32_t parity = 0; parity < 2; parity++) {
             commands_[parity] = std::make_unique<engine::Commands>(device_);
@@ -70,8 +74,52 @@ public:
 
     Result<void> advance(uint32_t steps) override {
         for (uint32_t k = 0; k < steps; ++k, ++ahead_)
-            if (auto done = submit((made_ + ahead_) & 1); !done) return done;
+            if (auto done = submit(made_ + ahead_); !done) return done;
         return {};
+    }
+
+    Result<void> recordSteps(VkCommandBuffer commands, uint32_t steps) override {
+        for (uint32_t k = 0; k < steps; ++k, ++ahead_) {
+            const uint64_t step = made_ + ahead_;
+            auto& recording = strikes_.contains(step) ? once_.emplace_back() : by_others_[step & 1];
+            if (!recording)
+                if (auto recorded = recordForOthers(recording, step); !recorded) return recorded;
+            recording->executeIn(commands);
+        }
+        return {};
+    }
+
+    Result<void> strike(const HandBlow& blow) override {
+        if (auto sound = checkBlow(blow); !sound) return sound;
+        if (!breaking_)
+            return Error{ErrorCode::BadInput,
+                         "nothing in this world can break: it needs the effect impact_fracture, and bodies "
+                         "of a material"};
+        auto& blows = strikes_[made_ + ahead_];
+        if (blows.size() == MOST_STRIKES)
+            return Error{ErrorCode::Capacity, "a step takes " + std::to_string(MOST_STRIKES) +
+                                                  " blows by hand; make a step, or let one blow reach further"};
+        blows.push_back(blow);
+        return {};
+    }
+
+    Result<DrawBuffers> drawBuffers() override {
+        if (auto made = makeDrawing(); !made) return made.error();
+        return drawing_->buffers();
+    }
+
+    Result<void> recordDraws(VkCommandBuffer commands, const Double3& origin) override {
+        if (auto sound = checkOrigin(origin); !sound) return sound;
+        if (auto made = makeDrawing(); !made) return made;
+        drawing_->record(commands, origin);
+        return {};
+    }
+
+    Result<void> updateDraws(const Double3& origin) override {
+        if (auto sound = checkOrigin(origin); !sound) return sound;
+        if (auto settled = settle(); !settled) return settled;
+        if (auto made = makeDrawing(); !made) return made;
+        return drawing_->update(origin);
     }
 
     Result<std::vector<gpu::BodyState>> bodies() override {
@@ -202,6 +250,7 @@ public:
         if (auto room = growFor(*head); !room) return room;
         if (auto done = writeState(device_, state, stateViews()); !done) return done;
         ahead_ = 0;
+        strikes_.clear();
         heard_ = head->heard;
         auto words = takeStock();
         if (!words) return words.error();
@@ -217,16 +266,20 @@ public:
     }
 
 private:
-    Result<void> recordStep(Recorder& record, uint32_t parity) {
+    // `blows`: by hand; nullptr for a step without, which has nothing of it.
+    Result<void> recordStep(Recorder& record, uint32_t parity, const std::vector<HandBlow>* blows = nullptr) {
+        if (blows != nullptr && has(Effect::Sleeping)) record.commands().fill(b_.steps.sub(4 * STEPS_ASLEEP, 4), 0);
         const Step step = {settings_, b_,     b_.memory[1 - parity], b_.memory[parity],
                            kernels_,  record, hasManyLanes(device_), has(Effect::Restitution) && bounce()};
         record.clear({b_.counts.sub(0, 4 * STATUS_FAILED)});
         recordBoxes(step);
         if (auto recorded = recordContacts(step); !recorded) return recorded;
+        if (blows != nullptr)
+            if (auto struck = breaking_->recordStrikes(step, *blows); !struck) return struck;
         recordIslands(step);
-        if (breaking_) breaking_->recordBlows(step);
+        if (breaking_) breaking_->recordBlows(step, blows != nullptr);
         recordColors(step);
-        if (breaking_) breaking_->recordAdmission(step);
+        if (breaking_) breaking_->recordAdmission(step, blows != nullptr);
         recordSolve(step);
         recordEnd(step);
         if (breaking_) return breaking_->recordEvent(step);
@@ -267,11 +320,61 @@ private:
         return std::ranges::any_of(contents_.shapes, [](const auto& shape) { return shape.inverse_inertia[1].w > 0; });
     }
 
-    Result<void> submit(uint32_t parity) {
+    // By its number, counted from 0.
+    Result<void> submit(uint64_t step) {
+        const uint32_t parity = step & 1;
+        if (const auto blows = strikes_.find(step); blows != strikes_.end()) return submitOnce(parity, blows->second);
         engine::Commands& commands = *commands_[parity];
         if (auto submitted = submitted_[parity] ? commands.submitAgain() : commands.submit(); !submitted) return submitted;
         submitted_[parity] = true;
         return commands.wait();
+    }
+
+    Result<void> submitOnce(uint32_t parity, const std::vector<HandBlow>& blows) {
+        engine::Commands commands(device_);
+        if (auto begun = commands.begin(); !begun) return begun;
+        Recorder recorder(commands, kernels_, b_.counts, b_.args);
+        if (auto recorded = recordStep(recorder, parity, &blows); !recorded) return recorded;
+        if (auto recorded = recorder.status(); !recorded) return recorded;
+        return commands.submitAndWait();
+    }
+
+    Result<void> recordForOthers(std::unique_ptr<engine::Commands>& recording, uint64_t step) {
+        auto commands = std::make_unique<engine::Commands>(device_);
+        if (auto begun = commands->begin(engine::Commands::Reuse::ByOthers); !begun) return begun;
+        Recorder recorder(*commands, kernels_, b_.counts, b_.args);
+        const auto blows = strikes_.find(step);
+        const auto* by_hand = blows != strikes_.end() ? &blows->second : nullptr;
+        if (auto recorded = recordStep(recorder, step & 1, by_hand); !recorded) return recorded;
+        if (auto recorded = recorder.status(); !recorded) return recorded;
+        if (auto ended = commands->end(); !ended) return ended;
+        recording = std::move(commands);
+        return {};
+    }
+
+    static Result<void> checkOrigin(const Double3& origin) {
+        constexpr double kFarthest = 1e6; // m
+        for (const double x : origin)
+            if (!(std::abs(x) <= kFarthest))
+                return Error{ErrorCode::BadInput,
+                             "the place that is drawn from has to be numbers, and no further out than 1e6 m"};
+        return {};
+    }
+
+    Result<void> makeDrawing() {
+        if (drawing_) return {};
+        Drawing::Source source = {.bodies = b_.bodies, .slots = b_.sizes.bodies, .as_added = order_.body_at};
+        if (breaking_) {
+            source.breakable = breaking_->breakable();
+            source.vertices = breaking_->surfaceVertices();
+            source.clocks = breaking_->clocks();
+            source.fades_after = static_cast<float>(settings_.debris_after);
+            source.fade_duration = static_cast<float>(settings_.debris_fade);
+        }
+        auto made = Drawing::create(device_, kernels_, contents_, std::move(source), ++drawings_);
+        if (!made) return made.error();
+        drawing_ = std::move(*made);
+        return {};
     }
 
     // Finds out what has become of steps that were submitted. Where one did not fit, none after it was made: with more room
@@ -284,8 +387,10 @@ private:
             if (const uint32_t stopped = (*words)[STATUS_STOPPED_BODY]; stopped != 0) return forget(stopped - 1);
             if (auto mended = mend(*words); !mended) return mended;
             for (uint64_t k = made_; k < wanted; k++)
-                if (auto done = submit(k & 1); !done) return done;
+                if (auto done = submit(k); !done) return done;
         }
+        strikes_.erase(strikes_.begin(), strikes_.lower_bound(made_));
+        once_.clear();
         return {};
     }
 
@@ -335,7 +440,9 @@ private:
         auto larger = makeWorldBuffers(device_, contents_, pairs, budget_.contacts, b_.sizes.effects);
         if (!larger) return larger.error();
         std::swap(b_, *larger);
-        return breaking_ ? makeBreakable(to_break_) : Result<void>();
+        if (breaking_)
+            if (auto made = makeBreakable(to_break_); !made) return made;
+        return std::exchange(drawing_, nullptr) ? makeDrawing() : Result<void>();
     }
 
     // How many steps the device has made; the counts of the last.
@@ -398,6 +505,9 @@ private:
     WorldBudget budget_;
     std::unique_ptr<engine::Commands> commands_[2];
     bool submitted_[2] = {false, false};
+    std::unique_ptr<engine::Commands> by_others_[2];      // for command buffers of others, once they ask for it
+    std::vector<std::unique_ptr<engine::Commands>> once_; // the same of steps with blows by hand
+    std::map<uint64_t, std::vector<HandBlow>> strikes_;   // by step, until it is known to have been made
     bool times_passes_ = false;
     uint64_t made_ = 0;
     uint64_t ahead_ = 0;                 // steps that were submitted since that was read
@@ -407,6 +517,8 @@ private:
     uint32_t slots_ = 0; // of bodies, that have ever held one
     uint32_t broken_ = 0, fragments_made_ = 0, expired_ = 0;
     FragmentList fragments_;
+    std::unique_ptr<Drawing> drawing_; // once somebody draws
+    uint32_t drawings_ = 0;
 };
 
 // Where bodies of theirs may break, gives the contents slots for what they break into; else nothing.

@@ -8,7 +8,9 @@
 #include "engine/device.h"
 #include "modules/brittle/breaking/body_fragment.h"
 #include "modules/brittle/breaking/dust_state.h"
+#include "modules/brittle/breaking/hand_blow.h"
 #include "modules/brittle/breaking/room_to_break.h"
+#include "modules/brittle/drawing/drawing.h"
 #include "modules/brittle/dynamics/step_plan.h"
 #include "modules/brittle/dynamics/step_settings.h"
 #include "modules/brittle/dynamics/world_contents.h"
@@ -61,6 +63,25 @@ public:
     // Makes so many steps, waits, and reads nothing back from the device. What the next other function is called for is true of
     // all of these steps; an error of theirs is the one that it returns, and what step() makes good it makes good.
     virtual engine::Result<void> advance(uint32_t steps = 1) = 0;
+
+    // The same, recorded into the command buffer of another, a primary one of the compute family, outside of render passes: it
+    // is submitted once, to the compute queue, and what was recorded into several in the order of recording. Nothing else here
+    // may be called before the device has finished with all of them, but this and recordDraws.
+    virtual engine::Result<void> recordSteps(VkCommandBuffer commands, uint32_t steps = 1) = 0;
+
+    // A blow by hand, in the next step that is made or recorded: bodies that can break and are near enough are judged as in any
+    // blow (breaking/strikes.h). It pushes nothing, and its cracks cost no motion. Errors: those of checkBlow; BadInput where
+    // nothing breaks; Capacity for more than MOST_STRIKES in a step. What is saved has no blow that waits for its step in it,
+    // and restoring forgets it.
+    virtual engine::Result<void> strike(const HandBlow& blow) = 0;
+
+    // What to draw of it (drawing/drawing.h): made when first asked for, and anew where the world has made more room. Bodies
+    // that do not break only where the contents have looks. Errors: Capacity, Device.
+    virtual engine::Result<DrawBuffers> drawBuffers() = 0;
+    // Brings draw commands and matrices up to the world as it is, with places from `origin`; recorded as recordSteps is, or at
+    // once. Errors: BadInput for an origin beyond 1e6 m.
+    virtual engine::Result<void> recordDraws(VkCommandBuffer commands, const Double3& origin) = 0;
+    virtual engine::Result<void> updateDraws(const Double3& origin) = 0;
 
     // In the order in which they were added; behind them slots of fragments, some of which may be empty (BODY_ABSENT).
     virtual engine::Result<std::vector<gpu::BodyState>> bodies() = 0;

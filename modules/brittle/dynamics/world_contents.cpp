@@ -1,5 +1,7 @@
 #include "modules/brittle/dynamics/world_contents.h"
 
+#include "modules/brittle/dynamics/sector_place.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -59,15 +61,9 @@ Result<void> check(const BodyDefinition& body) {
 
 // The sector and the place in it, from the middle of the sector.
 void setPlace(gpu::BodyState& state, const Double3& place, double inverse_mass) {
-    Double3 offset;
-    int32_t sector[3];
-    for (size_t k = 0; k < 3; k++) {
-        const double steps = std::floor(place[k] / SECTOR_EDGE + 0.5);
-        sector[k] = static_cast<int32_t>(steps);
-        offset[k] = place[k] - steps * SECTOR_EDGE;
-    }
-    state.sector = {sector[0], sector[1], sector[2], 0};
-    state.offset = packed(offset, inverse_mass);
+    const SectorPlace at = inSectors(place);
+    state.sector = at.sector;
+    state.offset = packed(toDouble(at.offset), inverse_mass);
 }
 
 // The principal axes in the body's own frame, as a turn, and the moments about them. A tensor that is a diagonal keeps its

@@ -7,6 +7,7 @@
 #include "modules/brittle/fracture/fragments.h"
 #include "shaders-spirv/shared/body.h"
 #include "shaders-spirv/shared/breaking.h"
+#include "shaders-spirv/shared/drawing.h"
 #include "shaders-spirv/shared/material.h"
 
 #include <array>
@@ -58,6 +59,8 @@ struct WorldContents {
     std::vector<gpu::BreakableBody> breakable;
     std::vector<gpu::MaterialCard> cards;
     std::vector<FragmentVertex> surface_vertices; // three a triangle
+    // Of what does not break, by body, to be drawn by (drawing/drawing.h); none where nobody draws.
+    std::vector<gpu::BodyLook> looks;
 };
 
 // Adds a body and returns its index. Where it fails the contents are as they were. Errors, with the body's name: BadInput for
