@@ -58,7 +58,7 @@ Problem checkShapeKeys(const Place& place, void* owner) {
 // ---- what values have to do with each other -------------------------------------------------------------------------------
 
 Problem checkSource(const Place& place, const ShapeDescription& shape) {
-    if (shape.kind == ShapeKind::Mesh && shape.file.empty()) return problemAt(place, "shape", "a mesh needs a 'file'");
+    if (shape.kind == ShapeKind::Mesh && shape.file.empty() && !shape.model) return problemAt(place, "shape", "a mesh needs a 'file'");
     if (shape.kind != ShapeKind::Hull) return {};
     if (shape.file.empty() && shape.points.empty()) return problemAt(place, "shape", "a hull needs 'points' or a 'file'");
     if (!shape.file.empty() && !shape.points.empty())

@@ -6,11 +6,12 @@
 #pragma once
 
 #include "modules/brittle/fracture/pattern.h"
-#include "modules/brittle/mesh/mesh.h"
+#include "modules/brittle/mesh/imported_mesh.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ struct ShapeDescription {
     uint32_t corners = 32;
     std::vector<Double3> points;
     std::string file;
+    std::shared_ptr<const ImportedMesh> model; // of a mesh, instead of a file: for programs, a scene file has none
     Double3 scale = {1, 1, 1};
     CellsDescription cells;
     bool operator==(const ShapeDescription&) const = default;

@@ -13,12 +13,16 @@ Float3 scaledNormal(const Float3& normal, const Double3& scale) {
     return toFloat(normalized(stretched, {0, 0, 0}));
 }
 
+engine::Result<ImportedMesh> unscaledModel(const ShapeDescription& shape, const std::filesystem::path& folder) {
+    const std::string_view file = shape.file;
+    if (shape.model) return *shape.model;
+    return file.starts_with(kBuiltinModel) ? makeBuiltin(file.substr(kBuiltinModel.size())) : importMesh(folder / shape.file);
+}
+
 } // namespace
 
 engine::Result<ImportedMesh> readModel(const ShapeDescription& shape, const std::filesystem::path& folder) {
-    const std::string_view file = shape.file;
-    auto model =
-        file.starts_with(kBuiltinModel) ? makeBuiltin(file.substr(kBuiltinModel.size())) : importMesh(folder / shape.file);
+    auto model = unscaledModel(shape, folder);
     if (!model) return model;
     for (Double3& p : model->positions)
         for (size_t c = 0; c < 3; ++c)

@@ -1,0 +1,204 @@
+#include "modules/brittle/abi/boundary.h"
+#include "modules/brittle/abi/conversions.h"
+#include "modules/brittle/mesh/vector_math.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace {
+
+using namespace brittle::abi;
+using brittle::BodyFragment;
+using Named = HostedWorld::Named;
+using brittle::operator+;
+
+// Who is in which slot now.
+class Inhabitants {
+public:
+    explicit Inhabitants(HostedWorld& world) : world_(world), states_(orRefuse(world.running().bodies())) {
+        for (BodyFragment& fragment : orRefuse(world.running().fragments()))
+            fragments_.emplace(fragment.slot, std::move(fragment));
+    }
+
+    std::vector<BrittleBodyState> all() const {
+        std::vector<BrittleBodyState> list;
+        for (uint32_t slot = 0; slot < states_.size(); ++slot)
+            if (isInhabited(slot)) list.push_back(stateOf(slot));
+        return list;
+    }
+
+    BrittleBodyState one(const Named& named) const {
+        if (named.slot >= states_.size() && named.born == 0) throw Refusal(BRITTLE_WRONG_HANDLE, "there was never such a body");
+        if (named.slot >= states_.size() || !isInhabited(named.slot) || bornIn(named.slot) != named.born)
+            throw Refusal(BRITTLE_STALE_HANDLE, "this body has broken, or is gone");
+        return stateOf(named.slot);
+    }
+    const BodyFragment* fragmentIn(uint32_t slot) const {
+        const auto found = fragments_.find(slot);
+        return found == fragments_.end() ? nullptr : &found->second;
+    }
+
+private:
+    bool isInhabited(uint32_t slot) const { return (states_[slot].sector.w & BODY_ABSENT) == 0; }
+    uint32_t bornIn(uint32_t slot) const { return fragmentIn(slot) != nullptr ? fragmentIn(slot)->step : 0; }
+
+    BrittleBodyState stateOf(uint32_t slot) const {
+        const gpu::BodyState& state = states_[slot];
+        const BodyFragment* fragment = fragmentIn(slot);
+        const brittle::Pose pose = brittle::poseOf(state);
+        BrittleBodyState s = {};
+        s.body = world_.bodyId(slot, bornIn(slot));
+        s.origin = fragment != nullptr ? world_.bodyId(fragment->origin, 0) : s.body;
+        s.position = vectorOf(pose.place);
+        s.rotation = quatOf(pose.turn);
+        setShapeFrame(s, pose, slot, fragment == nullptr);
+        s.velocity = vectorOf(state.velocity);
+        s.spin = vectorOf(state.spin);
+        s.mass = state.offset.w > 0 ? 1.0 / double{state.offset.w} : 0;
+        s.left = fragment != nullptr ? fragment->fade : 1;
+        s.is_asleep = (state.sector.w & BODY_ASLEEP) != 0 ? 1 : 0;
+        s.is_fragment = fragment != nullptr ? 1 : 0;
+        s.is_collider = fragment == nullptr && slot >= world_.bodyCount() ? 1 : 0;
+        s.made_in_step = bornIn(slot);
+        return s;
+    }
+
+    // What was described with a shape of its own still has it; a fragment's shape is in its own frame.
+    void setShapeFrame(BrittleBodyState& s, const brittle::Pose& pose, uint32_t slot, bool is_original) const {
+        const ShapeFrame frame = is_original ? world_.frames[slot] : ShapeFrame{};
+        s.shape_position = vectorOf(pose.place + brittle::turnedBy(pose.turn, frame.place));
+        s.shape_rotation = quatOf(product(pose.turn, frame.turn));
+    }
+    static brittle::Turn product(const brittle::Turn& p, const brittle::Turn& q) {
+        return {p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1], p[3] * q[1] - p[0] * q[2] + p[1] * q[3] + p[2] * q[0],
+                p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3], p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2]};
+    }
+
+    const HostedWorld& world_;
+    std::vector<gpu::BodyState> states_;
+    std::unordered_map<uint32_t, BodyFragment> fragments_;
+};
+
+// As many as there is room for; throws where there are more.
+template <class T>
+void handOver(const std::vector<T>& list, T* room, uint32_t capacity, uint32_t& count) {
+    if (capacity > 0) needed(room, "the list");
+    count = static_cast<uint32_t>(list.size());
+    std::copy_n(list.begin(), std::min<size_t>(list.size(), capacity), room);
+    if (list.size() > capacity)
+        throw Refusal(BRITTLE_BUFFER_TOO_SMALL,
+                      "there is room for " + std::to_string(capacity) + " of " + std::to_string(count));
+}
+
+BrittleBreak breakOf(const HostedWorld& world, const gpu::BreakEvent& e) {
+    const double edge = SECTOR_EDGE;
+    BrittleBreak b = {};
+    b.body = world.bodyId(e.what.y, e.born.x);
+    if (e.what.z != NO_INDEX) b.hit_by = world.bodyId(e.what.z, e.born.y);
+    b.step = e.what.x;
+    b.outcome = e.made.y;
+    b.fragments = e.made.y == 0 ? e.made.x : 0;
+    b.dust_cells = static_cast<uint32_t>(e.sector.w);
+    b.dust_mass = e.offset.w;
+    b.position = {edge * e.sector.x + e.offset.x, edge * e.sector.y + e.offset.y, edge * e.sector.z + e.offset.z};
+    b.normal = vectorOf(e.along);
+    b.speed = e.blow.y;
+    b.energy_before = e.energies.x;
+    b.energy_after = e.energies.y;
+    b.crack_energy = e.energies.z;
+    b.crack_area = e.energies.w;
+    return b;
+}
+
+brittle::SurfaceMesh surfaceIn(HostedWorld& world, const Inhabitants& inhabitants, const Named& named) {
+    if (const BodyFragment* fragment = inhabitants.fragmentIn(named.slot)) {
+        auto surfaces = orRefuse(world.running().surfacesOf({fragment, 1}));
+        return std::move(surfaces[0]);
+    }
+    return world.surfaces.meshes[world.surfaces.bodies[named.slot].mesh];
+}
+
+std::vector<BrittleVertex> verticesOf(const brittle::SurfaceMesh& surface) {
+    std::vector<BrittleVertex> vertices;
+    for (const uint32_t index : surface.indices) {
+        const brittle::FragmentVertex& from = surface.vertices[index];
+        BrittleVertex& to = vertices.emplace_back();
+        std::ranges::copy(from.position, to.position);
+        std::ranges::copy(from.normal, to.normal);
+        std::ranges::copy(from.uv, to.uv);
+    }
+    return vertices;
+}
+
+} // namespace
+
+BrittleResult brittleGetBodies(BrittleContext* context, BrittleWorld world, BrittleBodyState* states, uint32_t capacity,
+                               uint32_t* count) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        uint32_t& found = needed(count, "count");
+        handOver(Inhabitants(w).all(), states, capacity, found);
+    });
+}
+
+BrittleResult brittleGetBody(BrittleContext* context, BrittleWorld world, BrittleBody body, BrittleBodyState* state) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        BrittleBodyState& out = needed(state, "state");
+        static_cast<void>(w.running());
+        const Named named = w.named(body);
+        out = Inhabitants(w).one(named);
+    });
+}
+
+BrittleResult brittleGetBreaks(BrittleContext* context, BrittleWorld world, BrittleBreak* breaks, uint32_t capacity,
+                               uint32_t* count) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        uint32_t& told = needed(count, "count");
+        told = 0;
+        if (capacity > 0) needed(breaks, "breaks");
+        static_cast<void>(w.running());
+        if ((w.scene.effects.end() == std::ranges::find(w.scene.effects, nameOf(brittle::Effect::Events))))
+            throw Refusal(BRITTLE_BAD_VALUE, "the world has not the effect BRITTLE_EFFECT_EVENTS");
+        auto& waiting = w.hear();
+        told = static_cast<uint32_t>(std::min<size_t>(waiting.size(), capacity));
+        for (uint32_t k = 0; k < told; ++k)
+            breaks[k] = breakOf(w, waiting[k]);
+        waiting.erase(waiting.begin(), waiting.begin() + told);
+    });
+}
+
+BrittleResult brittleGetCounts(BrittleContext* context, BrittleWorld world, BrittleCounts* counts) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        BrittleCounts& out = sized(counts, "counts");
+        const brittle::WorldCounts n = orRefuse(w.running().counts());
+        out = {sizeof out, n.bodies, n.awake, n.pairs, n.contacts, n.broken, n.fragments, n.expired, w.lost()};
+    });
+}
+
+BrittleResult brittleNumberOf(BrittleContext* context, BrittleWorld world, BrittleBody body, uint32_t* number) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        uint32_t& out = needed(number, "number");
+        static_cast<void>(w.recording());
+        out = w.named(body).slot;
+    });
+}
+
+BrittleResult brittleGetSurface(BrittleContext* context, BrittleWorld world, BrittleBody body, BrittleVertex* vertices,
+                                uint32_t capacity, uint32_t* count, uint32_t* outer) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        uint32_t &all = needed(count, "count"), &own = needed(outer, "outer");
+        static_cast<void>(w.running());
+        const Named named = w.named(body);
+        if (!w.has_surfaces) throw Refusal(BRITTLE_BAD_VALUE, "the world was made with has_surfaces = 0");
+        const Inhabitants inhabitants(w);
+        static_cast<void>(inhabitants.one(named));
+        const brittle::SurfaceMesh surface = surfaceIn(w, inhabitants, named);
+        own = surface.outer_index_count;
+        handOver(verticesOf(surface), vertices, capacity, all);
+    });
+}

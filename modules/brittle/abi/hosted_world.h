@@ -1,0 +1,75 @@
+// A world of a host's: first what has been added to it, then, once started, the world on the device.
+#pragma once
+
+#include "modules/brittle/abi/refusal.h"
+#include "modules/brittle/dynamics/pose.h"
+#include "modules/brittle/dynamics/world.h"
+#include "modules/brittle/scene/scene_description.h"
+
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace brittle::abi {
+
+// Of a body, which says where its shape's frame is: that frame in the body's own.
+struct ShapeFrame {
+    Double3 place = {0, 0, 0};
+    Turn turn = {0, 0, 0, 1};
+};
+
+class HostedWorld {
+public:
+    HostedWorld(SceneDescription described, const BrittleWorldDef& def, std::pmr::memory_resource* memory)
+        : scene(std::move(described)), has_surfaces(def.has_surfaces != 0), seed(def.seed), waiting_(memory) {}
+    void setTag(uint64_t world_id) { tag_ = (world_id ^ world_id >> 29 ^ world_id >> 47) * 0x9e3779b97f4a7c15u >> 56; }
+
+    // Refuse what is not to be called now.
+    void mustNotRun() const;
+    World& running(); // and what was recorded has been finished
+    World& recording();
+
+    void start(engine::Device& device);
+    bool isRunning() const { return world_ != nullptr; }
+    void noteRecorded() { has_recorded_ = true; }
+    void finish();
+
+    // Slots are those of the world: bodies, then colliders, then fragments, which may have slots of bodies that broke as well.
+    uint32_t bodyCount() const { return static_cast<uint32_t>(scene.bodies.size()); }
+    uint32_t originalCount() const { return static_cast<uint32_t>(scene.bodies.size() + scene.colliders.size()); }
+    // Ids of bodies: 4 bits kind, 8 of the world's, 22 number, 30 the step that a fragment was made in. Colliders are numbered
+    // apart, since bodies may still come when one is added.
+    BrittleBody bodyId(uint32_t slot, uint32_t born) const;
+    BrittleBody colliderId(uint32_t index) const;
+    struct Named {
+        uint32_t slot = 0, born = 0;
+    };
+    Named named(BrittleBody body) const; // refuses what was never an id of this world
+
+    // Events told by the device and not yet by the host; how many were lost.
+    std::pmr::vector<gpu::BreakEvent>& hear();
+    uint32_t lost() const { return lost_; }
+    void forgetEvents() { waiting_.clear(); }
+
+    SceneDescription scene;
+    std::unordered_map<uint64_t, std::string> material_names; // of the context's materials that bodies are of
+    WorldSurfaces surfaces;                                   // of what there was at the start, where it has surfaces
+    std::vector<ShapeFrame> frames;                           // of bodies and colliders
+    bool has_surfaces = false;
+    bool is_drawn = false; // draw buffers have been asked for
+    uint64_t seed = 1;
+    std::optional<std::vector<std::byte>> saved; // just now, to be copied by the next call
+
+private:
+    void findFrames(const std::vector<gpu::BodyState>& states);
+
+    std::unique_ptr<World> world_;
+    bool has_recorded_ = false;
+    std::pmr::vector<gpu::BreakEvent> waiting_;
+    uint32_t lost_ = 0;
+    uint64_t tag_ = 0;
+};
+
+} // namespace brittle::abi

@@ -1,0 +1,75 @@
+#include "modules/brittle/abi/boundary.h"
+#include "modules/brittle/abi/conversions.h"
+#include "modules/brittle/dynamics/scene_settings.h"
+#include "modules/brittle/scene/check_scene.h"
+
+namespace {
+
+using namespace brittle::abi;
+using brittle::SceneDescription;
+
+// A scene has a body, and of a world that is filled bit by bit only what is new is checked.
+void checkWith(SceneDescription scene) {
+    scene.bodies = {brittle::BodyDescription()};
+    orRefuse(brittle::checkScene(scene));
+}
+
+void checkCollider(const brittle::ColliderDescription& collider) {
+    SceneDescription scene;
+    scene.colliders = {collider};
+    checkWith(scene);
+}
+
+} // namespace
+
+BrittleResult brittleCreateWorld(BrittleContext* context, const BrittleWorldDef* def, BrittleWorld* world) {
+    return bounded(context, [&](BrittleContext& c) {
+        const BrittleWorldDef& d = sized(def, "def");
+        BrittleWorld& out = needed(world, "world");
+        SceneDescription scene = sceneOf(d);
+        checkWith(scene);
+        auto settings = orRefuse(brittle::settingsOf(scene));
+        orRefuse(brittle::checkSettings(settings));
+        out.id = c.worlds.add(std::move(scene), d, &c.memory);
+        c.worlds.at(out.id).setTag(out.id);
+    });
+}
+
+BrittleResult brittleDestroyWorld(BrittleContext* context, BrittleWorld world) {
+    return bounded(context, [&](BrittleContext& c) {
+        static_cast<void>(c.worlds.at(world.id));
+        c.device->waitIdle();
+        c.worlds.remove(world.id);
+    });
+}
+
+BrittleResult brittleAddBody(BrittleContext* context, BrittleWorld world, const BrittleBodyDef* def, BrittleBody* body) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        const BrittleBodyDef& d = sized(def, "def");
+        BrittleBody& out = needed(body, "body");
+        w.mustNotRun();
+        auto described = bodyOf(c, w, d);
+        orRefuse(brittle::checkBody(described, w.scene.bodies.size(), w.scene.materials));
+        w.scene.bodies.push_back(std::move(described));
+        out = w.bodyId(w.bodyCount() - 1, 0);
+    });
+}
+
+BrittleResult brittleAddCollider(BrittleContext* context, BrittleWorld world, const BrittleColliderDef* def,
+                                 BrittleBody* collider) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        const BrittleColliderDef& d = sized(def, "def");
+        BrittleBody& out = needed(collider, "collider");
+        w.mustNotRun();
+        auto described = colliderOf(c, d);
+        checkCollider(described);
+        w.scene.colliders.push_back(std::move(described));
+        out = w.colliderId(static_cast<uint32_t>(w.scene.colliders.size() - 1));
+    });
+}
+
+BrittleResult brittleStartWorld(BrittleContext* context, BrittleWorld world) {
+    return bounded(context, [&](BrittleContext& c) { c.worlds.at(world.id).start(*c.device); });
+}
