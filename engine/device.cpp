@@ -49,6 +49,8 @@ std::optional<Error> unfitFor(const ForeignDevice& foreign) {
         return Error{ErrorCode::BadInput, "instance, physical device, device and queue are needed, all four"};
     if ((foreign.lock == nullptr) != (foreign.unlock == nullptr))
         return Error{ErrorCode::BadInput, "a queue is locked and unlocked: give both functions or neither"};
+    if (foreign.api_version < VK_API_VERSION_1_1)
+        return missing("its instance was made for Vulkan 1.0; ask for 1.1 in VkApplicationInfo::apiVersion");
     if (!foreign.long_integers) return missing("it was made without the feature shaderInt64; enable it in vkCreateDevice");
     return std::nullopt;
 }
@@ -69,7 +71,7 @@ Result<void> Device::openForeign() {
         return Error{ErrorCode::Device, "no Vulkan loader on this machine; give the host's vkGetInstanceProcAddr"};
     instance_vk_ = loadInstanceFunctions(foreign_.instance, foreign_.get_proc_addr);
     if (instance_vk_.vkGetPhysicalDeviceProperties2 == nullptr)
-        return missing("its instance was made for Vulkan 1.0; ask for 1.1 in VkApplicationInfo::apiVersion");
+        return missing("its instance has not the functions of Vulkan 1.1");
     physical_ = foreign_.physical;
     if (const std::string lacks = missingRequirements(instance_vk_, physical_); !lacks.empty()) return missing("it " + lacks);
     const auto families = queueFamilies();

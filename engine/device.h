@@ -23,7 +23,8 @@ struct DeviceOptions {
 // What it was made with nobody can ask it: the owner says so.
 struct ForeignDevice {
     PFN_vkGetInstanceProcAddr get_proc_addr = nullptr; // nullptr: that of this machine's loader
-    VkInstance instance = VK_NULL_HANDLE;              // for Vulkan 1.1 or later
+    VkInstance instance = VK_NULL_HANDLE;
+    uint32_t api_version = 0; // that the instance was made for; Vulkan 1.1 is needed
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE; // of a family with compute
@@ -73,6 +74,7 @@ public:
     VkDevice handle() const { return handle_; }
     const InstanceFunctions& instanceFunctions() const { return instance_vk_; }
     VkInstance instanceHandle() const { return isForeign() ? foreign_.instance : instance_->handle(); }
+    uint32_t instanceVersion() const { return isForeign() ? foreign_.api_version : VK_API_VERSION_1_1; }
     VkPhysicalDevice physical() const { return physical_; }
     const VolkDeviceTable& vk() const { return table_; }
     VkPipelineCache pipelineCache() const { return pipeline_cache_; }

@@ -132,6 +132,7 @@ typedef struct BrittleVulkan {
     VkPhysicalDevice physical_device;
     VkDevice device;
     VkQueue queue;
+    uint32_t api_version; /* VkApplicationInfo::apiVersion that the instance was made for: at least VK_API_VERSION_1_1 */
     uint32_t queue_family;
     uint32_t features; /* BRITTLE_FEATURE_..., those that the device was made with */
     BrittleGetProcAddress get_instance_proc_addr; /* NULL: that of the machine's Vulkan loader */
@@ -351,9 +352,10 @@ BRITTLE_API BrittleResult brittleRecordSteps(BrittleContext* context, BrittleWor
 BRITTLE_API BrittleResult brittleFinishSteps(BrittleContext* context, BrittleWorld world);
 
 /* A blow by hand, in the next step that is made or recorded. Bodies of a material that are not further from `point` (world, within 1e6 m) than
- * `radius` (m, above 0, at most 1e6) share `energy` (J, above 0, at most 1e15) evenly; each is judged as in every blow: as if it had met
- * there, with that energy, something that neither moves nor gives way. It breaks if its material does; too little breaks nothing. Fragments are
- * smallest within `radius`. It pushes nothing. At most 32 a step. Errors: BAD_VALUE, also where nothing in the world can break; CAPACITY. Allowed while
+ * `radius` (m, above 0, at most 1e6) share `energy` (J, above 0, at most 1e15) evenly; each is judged as in every blow: as if a ball of
+ * that radius, as dense as the body and unyielding, had met it at its nearest place with that energy. So a small radius takes little energy to
+ * break something, and a large one more; too little breaks nothing. Fragments are smallest within `radius`. It pushes nothing, and does not wait: what
+ * the budget of a step (breaking_bodies) has no room for stays whole. At most 32 a step. Errors: BAD_VALUE, also where nothing in the world can break; CAPACITY. Allowed while
  * recorded steps are unfinished. */
 BRITTLE_API BrittleResult brittleDamage(BrittleContext* context, BrittleWorld world, BrittleVec3 point, double radius, double energy);
 
@@ -443,7 +445,8 @@ typedef struct BrittleDrawnBody {
  * counterclockwise front faces, the vertices of BrittleVertex at binding 0 and indices of 32 bits. Draws come in twos, a surface and the faces of
  * cuts in it; slot = gl_InstanceIndex / 2, faces of cuts where it is odd. What is not there has no instances. Buffers are the context's,
  * of the queue's family, exclusive; they may be bound as the name says, as storage and as source of copies, and must not be written.
- * A world that has made more room has other buffers: look at `generation` after brittleStep, brittleFinishSteps and brittleRestoreState. */
+ * A world that has made more room for pairs has other buffers, and those before are gone: look at `generation` after brittleStep,
+ * brittleFinishSteps, brittleRestoreState and whatever else asks the device, or give BrittleBudget::pairs, and it never does. */
 typedef struct BrittleDrawBuffers {
     uint32_t struct_size;
     uint32_t generation;

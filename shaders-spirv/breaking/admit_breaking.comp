@@ -308,7 +308,7 @@ void setBroken(uint k, uint body, uint sites, float paid, Rays rays) {
     BlowRecord blow = blowOf(body);
     bool by_hand = isByHand(pair), is_b = !by_hand && memory[pair].ids.x != body;
     uint other = by_hand ? NO_INDEX : is_b ? memory[pair].ids.x : memory[pair].ids.y;
-    vec3 normal = vec3(0.0), arm = is_b ? blow.arm_b.xyz : blow.arm_a.xyz;
+    vec3 normal = vec3(0.0);
     if (!by_hand) normal = memory[pair].normal.xyz;
 #if STRIKES
     if (by_hand) normal = records[body].along.xyz;

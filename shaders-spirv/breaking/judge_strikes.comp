@@ -1,6 +1,6 @@
-// Which bodies are broken by hand: judged as every blow is, by stress and by energy, as if the body had met at the nearest place of
-// it something that neither moves nor gives way, so fast that this is the blow's energy. The hardest that breaks it counts. A body
-// that breaks is awake.
+// Which bodies are broken by hand: judged as every blow is, by stress and by energy, as if the body had met, at the nearest place of
+// it, a ball of the strike's radius that is as dense as the body and does not give way, so fast that this is the blow's energy. The
+// hardest that breaks it counts. A body that breaks is awake.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -38,19 +38,24 @@ vec3 outward(vec3 strike, vec3 place, vec3 middle) {
     return dot(out_, out_) > 1e-12 ? normalize(out_) : vec3(0.0, 1.0, 0.0);
 }
 
-// What does not move weighs as its material does, and cannot give way by turning.
-float effectiveMass(uint body, vec3 arm, vec3 along) {
+// What does not move weighs as its material does.
+float densityOf(uint body) {
     float inverse_mass = bodies[body].offset.w;
-    if (inverse_mass == 0.0) return cards[breakable[body].surface.w].elastic.x * breakable[body].form.x;
+    return inverse_mass > 0.0 ? 1.0 / (inverse_mass * breakable[body].form.x) : cards[breakable[body].surface.w].elastic.x;
+}
+
+float effectiveMass(uint body, vec3 arm, vec3 along, float radius) {
     vec3 lever = cross(arm, along);
-    return 1.0 / (inverse_mass + dot(lever, worldInertia(ownInverseInertia(shapes[body]), bodies[body].turn) * lever));
+    float ball = densityOf(body) * 4.18879 * radius * radius * radius, inverse_mass = bodies[body].offset.w;
+    float turning = inverse_mass > 0.0 ? dot(lever, worldInertia(ownInverseInertia(shapes[body]), bodies[body].turn) * lever) : 0.0;
+    return 1.0 / (1.0 / ball + inverse_mass + turning);
 }
 
 StrikeRecord recordOf(uint body, uint k) {
     HullRecord hull = hulls[pieces[claims[body * uint(MOST_STRIKES) + k]].ids.x];
     vec3 strike = strikeIn(bodies[body], strikes[k]), place = nearestOnHull(hull, strike);
     vec3 along = turned(bodies[body].turn, outward(strike, place, hull.center.xyz)), arm = turned(bodies[body].turn, place);
-    float mass = effectiveMass(body, arm, along), energy = strikes[k].energy.x / float(max(reached[k], 1u));
+    float mass = effectiveMass(body, arm, along, strikes[k].offset.w), energy = strikes[k].energy.x / float(max(reached[k], 1u));
     return StrikeRecord(uvec4(1u, k, 0u, 0u), vec4(mass, sqrt(2.0 * energy / mass), energy, 0.0), vec4(arm, strikes[k].offset.w),
                         vec4(along, 0.0));
 }

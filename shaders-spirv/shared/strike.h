@@ -1,5 +1,5 @@
-// Blows that a host gives by hand: it says where, how wide and how much, and a body that is near enough is struck as if it had met
-// something there that neither moves nor gives way.
+// Blows that a host gives by hand: it says where, how wide and how much, and a body that is near enough is struck as if it had met a
+// ball as wide there.
 #ifndef STRIKE_H
 #define STRIKE_H
 

@@ -25,6 +25,7 @@ engine::ForeignDevice foreignOf(const BrittleVulkan& v) {
     engine::ForeignDevice foreign;
     foreign.get_proc_addr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(v.get_instance_proc_addr);
     foreign.instance = v.instance;
+    foreign.api_version = v.api_version;
     foreign.physical = v.physical_device;
     foreign.device = v.device;
     foreign.queue = v.queue;
@@ -141,6 +142,7 @@ BrittleResult brittleGetVulkan(BrittleContext* context, BrittleVulkan* vulkan) {
         out.device = device.handle();
         out.queue = device.computeQueue().handle;
         out.queue_family = device.computeQueue().family;
+        out.api_version = device.instanceVersion();
         out.features = featuresOf(device);
         out.device_name = device.name().c_str();
     });

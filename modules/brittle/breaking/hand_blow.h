@@ -1,4 +1,5 @@
-// A blow that a host gives by hand.
+// A blow that a host gives by hand: of each body that it reaches as if it had met, at its nearest place, a ball of that radius, as
+// dense as the body, that does not give way, with that energy between the two along the line on which they meet.
 #pragma once
 
 #include "engine/result.h"

@@ -40,6 +40,7 @@ static BrittleVulkan makeDevice(void) {
     mustBe(vkEnumeratePhysicalDevices(vulkan.instance, &one, &vulkan.physical_device) >= 0 && one == 1, "finding a device");
     mustBe(vkCreateDevice(vulkan.physical_device, &device, NULL, &vulkan.device) == VK_SUCCESS, "vkCreateDevice");
     vkGetDeviceQueue(vulkan.device, 0, 0, &vulkan.queue);
+    vulkan.api_version = app.apiVersion;
     vulkan.features = BRITTLE_FEATURE_SHADER_INT64;
     return vulkan;
 }

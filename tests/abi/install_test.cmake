@@ -1,0 +1,32 @@
+# Installs the library to an empty prefix, builds the example against that prefix alone, by CMake's package and by pkg-config, and runs
+# it: cmake -DBUILD=... -DEXAMPLE=... -DFOLDER=... -P install_test.cmake
+cmake_policy(VERSION 3.25)
+file(REMOVE_RECURSE ${FOLDER})
+set(prefix ${FOLDER}/prefix)
+
+function(run)
+    execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component library)
+run(${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/by_cmake -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${FOLDER}/by_cmake)
+execute_process(COMMAND ${FOLDER}/by_cmake/host OUTPUT_VARIABLE told COMMAND_ERROR_IS_FATAL ANY)
+message("${told}")
+if(NOT told MATCHES "step [0-9]+: hit at .* fragments" OR NOT told MATCHES "struck by hand" OR NOT told MATCHES "hash [0-9a-f]+")
+    message(FATAL_ERROR "the example says nothing of what broke")
+endif()
+
+find_program(CC NAMES cc gcc clang REQUIRED)
+find_program(PKG_CONFIG pkg-config REQUIRED)
+file(GLOB_RECURSE pc ${prefix}/*/brittle.pc)
+cmake_path(GET pc PARENT_PATH pc_folder)
+set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+execute_process(COMMAND ${PKG_CONFIG} --cflags --libs brittle vulkan OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(${CC} -std=c11 -Wall -Wextra -pedantic -Werror -o ${FOLDER}/by_pkg_config ${EXAMPLE}/host.c ${flags})
+find_program(READELF readelf REQUIRED)
+execute_process(COMMAND ${READELF} -d ${FOLDER}/by_pkg_config OUTPUT_VARIABLE needs COMMAND_ERROR_IS_FATAL ANY)
+if(NOT needs MATCHES "libbrittle\\.so\\.0\\.1")
+    message(FATAL_ERROR "it does not ask for the library by its SOVERSION: ${needs}")
+endif()
