@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tools/test.sh [--long]: sets up, builds and runs the tests: all of them in the release build, a part of them under the Vulkan
 # validation layers (core, synchronization, GPU-assisted), a part of them under the address and undefined-behavior sanitizers,
-# and the fuzzers of importers and scene files for about a minute in all (tools/fuzz.sh runs them for longer).
+# and the fuzzers of importers and scene files for about a minute in all, that of the C ABI for another one (tools/fuzz.sh runs them for longer).
 # --long adds the long tests: every model there is (tools/corpus.sh fetches some), larger models, more sites and seeds, the slow
 # cases of the kernels.
 set -euo pipefail
@@ -38,7 +38,7 @@ step build tools/build.sh release all
 if $failed; then exit 1; fi
 step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
 step validation ctest --preset validation --label-regex '^validation$' --no-tests=error
-step build-asan tools/build.sh asan brittle_tests_engine brittle_tests_hard brittle_tests_kernel brittle_tests_module \
+step build-asan tools/build.sh asan brittle_tests_abi brittle_tests_engine brittle_tests_hard brittle_tests_kernel brittle_tests_module \
   brittle_tests_reference
 step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
 step build-fuzz tools/build.sh fuzz
