@@ -1,35 +1,35 @@
 /* Brittle's C ABI: worlds of rigid bodies that break where they are hit, on Vulkan compute, for engines.
  *
- * Life of a host: make a context (on a Vulkan device of the host's, or on one that Brittle makes); make materials and meshes; make
- * a world and add bodies and colliders to it; start the world; from then on step it, or record its steps into the host's command
- * buffers; ask for what broke, draw from its buffers, damage by hand, save, restore, hash. modules/brittle/examples/host.c does all of
- * it in a hundred lines.
+ * Life of a host: make a context (on a Vulkan device of the host's, or on one that Brittle makes); make materials and meshes;
+ * make a world and add bodies and colliders to it; start the world; from then on step it, or record its steps into the host's
+ * command buffers; ask for what broke, draw from its buffers, damage by hand, save, restore, hash.
+ * modules/brittle/examples/host.c does all of it in a hundred lines.
  *
- * UNITS are SI: meters, kilograms, seconds, joules, radians. Frames are right-handed; gravity is what the world says. Rotations are
- * quaternions x, y, z, w of any length but 0.
+ * UNITS are SI: meters, kilograms, seconds, joules, radians. Frames are right-handed; gravity is what the world says. Rotations
+ * are quaternions x, y, z, w of any length but 0.
  *
- * ERRORS. What can fail returns a BrittleResult; brittleLastError has, in words, what went wrong with the context's last call that
- * failed, and what to do. A call that fails leaves everything as it was, where nothing else is said. Any function that takes a
- * context may return BRITTLE_NULL_ARGUMENT (a pointer that must not be NULL is), BRITTLE_OUT_OF_MEMORY and BRITTLE_INTERNAL (a bug of
- * Brittle's, caught before it reached the host); one that takes an id BRITTLE_WRONG_HANDLE (never an id of that kind and context) and
- * BRITTLE_STALE_HANDLE (what it named is gone). Further errors stand with each function. No exception leaves the library, and
- * nothing in it ends the process. The pointer to a context is the one thing that cannot be checked: it is good from
- * brittleCreateContext to brittleDestroyContext.
+ * ERRORS. What can fail returns a BrittleResult; brittleLastError has, in words, what went wrong with the context's last call
+ * that failed, and what to do. A call that fails leaves everything as it was, where nothing else is said. Any function that
+ * takes a context may return BRITTLE_NULL_ARGUMENT (a pointer that must not be NULL is), BRITTLE_OUT_OF_MEMORY and
+ * BRITTLE_INTERNAL (a bug of Brittle's, caught before it reached the host); one that takes an id BRITTLE_WRONG_HANDLE (never an
+ * id of that kind and context) and BRITTLE_STALE_HANDLE (what it named is gone). Further errors stand with each function. No
+ * exception leaves the library, and nothing in it ends the process. The pointer to a context is the one thing that cannot be
+ * checked: it is good from brittleCreateContext to brittleDestroyContext.
  *
- * VERSIONS. Every struct that begins with `struct_size` is to be made by its brittleDefault... function (definitions) or to have it
- * set to sizeof (what is filled in for the host); another size is answered with BRITTLE_WRONG_VERSION. Structs do not change within a
- * SOVERSION of the library.
+ * VERSIONS. Every struct that begins with `struct_size` is to be made by its brittleDefault... function (definitions) or to
+ * have it set to sizeof (what is filled in for the host); another size is answered with BRITTLE_WRONG_VERSION. Structs do not
+ * change within a SOVERSION of the library.
  *
- * OWNERSHIP. Definitions and all that they point at are read during the call and never afterwards. The host keeps its Vulkan objects
- * and destroys them after the context. Ids are values: nothing has to be freed but what has a brittleDestroy..., and a context
- * destroys all that is in it.
+ * OWNERSHIP. Definitions and all that they point at are read during the call and never afterwards. The host keeps its Vulkan
+ * objects and destroys them after the context. Ids are values: nothing has to be freed but what has a brittleDestroy..., and a
+ * context destroys all that is in it.
  *
  * THREADS. A context, and all in it, is used by one thread at a time, whichever; two contexts may be used by two threads at the
- * same time, also on one VkDevice. Brittle starts no thread that outlives a call. Functions marked [queue] submit to the context's
- * VkQueue and wait for it: Vulkan wants nobody else to use that queue meanwhile, so a host that uses it from other threads gives
- * lock_queue and unlock_queue. All others touch no queue. Callbacks are called on the thread that made the call, during the call, and
- * must not call back into the same context. Other queues of the device are never touched, and the device as a whole is never waited
- * for.
+ * same time, also on one VkDevice. Brittle starts no thread that outlives a call. Functions marked [queue] submit to the
+ * context's VkQueue and wait for it: Vulkan wants nobody else to use that queue meanwhile, so a host that uses it from other
+ * threads gives lock_queue and unlock_queue. All others touch no queue. Callbacks are called on the thread that made the call,
+ * during the call, and must not call back into the same context. Other queues of the device are never touched, and the device
+ * as a whole is never waited for.
  */
 #ifndef BRITTLE_H
 #define BRITTLE_H
@@ -63,20 +63,20 @@ typedef struct VkBuffer_T* VkBuffer;
 
 typedef enum BrittleResult {
     BRITTLE_OK = 0,
-    BRITTLE_NULL_ARGUMENT = 1,    /* a pointer that must not be NULL is */
-    BRITTLE_WRONG_VERSION = 2,    /* header and library are of different versions, or a struct_size is wrong */
-    BRITTLE_WRONG_HANDLE = 3,     /* never an id of this kind in this context or world */
-    BRITTLE_STALE_HANDLE = 4,     /* what the id named has been destroyed, has broken or has gone */
-    BRITTLE_BAD_VALUE = 5,        /* not a number, or out of range; brittleLastError names it */
-    BRITTLE_BAD_MESH = 6,         /* open, not manifold, inside itself...; brittleLastError says what and where */
-    BRITTLE_BAD_STATE = 7,        /* no saved state of such a world */
-    BRITTLE_WRONG_ORDER = 8,      /* not now: before the start, after it, or with recorded steps unfinished */
-    BRITTLE_CAPACITY = 9,         /* a budget or a limit of the device is too small; brittleLastError says which and by how much */
+    BRITTLE_NULL_ARGUMENT = 1, /* a pointer that must not be NULL is */
+    BRITTLE_WRONG_VERSION = 2, /* header and library are of different versions, or a struct_size is wrong */
+    BRITTLE_WRONG_HANDLE = 3,  /* never an id of this kind in this context or world */
+    BRITTLE_STALE_HANDLE = 4,  /* what the id named has been destroyed, has broken or has gone */
+    BRITTLE_BAD_VALUE = 5,     /* not a number, or out of range; brittleLastError names it */
+    BRITTLE_BAD_MESH = 6,      /* open, not manifold, inside itself...; brittleLastError says what and where */
+    BRITTLE_BAD_STATE = 7,     /* no saved state of such a world */
+    BRITTLE_WRONG_ORDER = 8,   /* not now: before the start, after it, or with recorded steps unfinished */
+    BRITTLE_CAPACITY = 9,      /* a budget or a limit of the device is too small; brittleLastError says which and by how much */
     BRITTLE_BUFFER_TOO_SMALL = 10, /* the host's; how much is needed has been written */
-    BRITTLE_OUT_OF_MEMORY = 11,   /* of the host */
-    BRITTLE_MISSING_FEATURE = 12, /* the Vulkan device lacks it or was made without; brittleLastError names it */
-    BRITTLE_DEVICE_FAILED = 13,   /* no Vulkan device, or one that failed */
-    BRITTLE_INTERNAL = 14         /* a bug of Brittle's */
+    BRITTLE_OUT_OF_MEMORY = 11,    /* of the host */
+    BRITTLE_MISSING_FEATURE = 12,  /* the Vulkan device lacks it or was made without; brittleLastError names it */
+    BRITTLE_DEVICE_FAILED = 13,    /* no Vulkan device, or one that failed */
+    BRITTLE_INTERNAL = 14          /* a bug of Brittle's */
 } BrittleResult;
 
 typedef enum BrittleLogLevel { BRITTLE_LOG_INFO = 0, BRITTLE_LOG_WARNING = 1, BRITTLE_LOG_ERROR = 2 } BrittleLogLevel;
@@ -84,27 +84,41 @@ typedef enum BrittleLogLevel { BRITTLE_LOG_INFO = 0, BRITTLE_LOG_WARNING = 1, BR
 typedef struct BrittleContext BrittleContext;
 
 /* Ids. All zeros is the id of nothing. An id of what is gone is never that of something else. */
-typedef struct BrittleMesh { uint64_t id; } BrittleMesh;
-typedef struct BrittleMaterial { uint64_t id; } BrittleMaterial;
-typedef struct BrittleWorld { uint64_t id; } BrittleWorld;
-typedef struct BrittleBody { uint64_t id; } BrittleBody; /* a body, a fragment or a collider; of one world */
+typedef struct BrittleMesh {
+    uint64_t id;
+} BrittleMesh;
+typedef struct BrittleMaterial {
+    uint64_t id;
+} BrittleMaterial;
+typedef struct BrittleWorld {
+    uint64_t id;
+} BrittleWorld;
+typedef struct BrittleBody {
+    uint64_t id;
+} BrittleBody; /* a body, a fragment or a collider; of one world */
 
-typedef struct BrittleVec3 { double x, y, z; } BrittleVec3;
-typedef struct BrittleQuat { double x, y, z, w; } BrittleQuat;
+typedef struct BrittleVec3 {
+    double x, y, z;
+} BrittleVec3;
+typedef struct BrittleQuat {
+    double x, y, z, w;
+} BrittleQuat;
 
 /* The version of the library: compare with BRITTLE_VERSION. Any thread, at any time. */
 BRITTLE_API uint32_t brittleVersion(void);
 /* "BRITTLE_OK" and so on; "BRITTLE_UNKNOWN_RESULT" for what is none. Never NULL; not to be freed. Any thread, at any time. */
 BRITTLE_API const char* brittleResultName(BrittleResult result);
 
-/* ---- Context -------------------------------------------------------------------------------------------------------------------- */
+/* ---- Context
+ * -------------------------------------------------------------------------------------------------------------------- */
 
 /* Message: one line, in English, good during the call. */
 typedef void (*BrittleLog)(void* user, BrittleLogLevel level, const char* message);
 
-/* Aligned memory, or NULL where there is none left, which becomes BRITTLE_OUT_OF_MEMORY; `alignment` is a power of two. Through it go
- * the context itself, its tables of ids, and the records of meshes, materials, worlds and events that it keeps. What C++ containers hold inside
- * of them and use while a function works, and what the Vulkan driver takes, does not: that comes from the process's heap. */
+/* Aligned memory, or NULL where there is none left, which becomes BRITTLE_OUT_OF_MEMORY; `alignment` is a power of two. Through
+ * it go the context itself, its tables of ids, and the records of meshes, materials, worlds and events that it keeps. What C++
+ * containers hold inside of them and use while a function works, and what the Vulkan driver takes, does not: that comes from
+ * the process's heap. */
 typedef struct BrittleAllocator {
     void* (*allocate)(void* user, size_t size, size_t alignment);
     void (*release)(void* user, void* memory, size_t size, size_t alignment);
@@ -124,17 +138,18 @@ typedef enum BrittleDeviceFeature {
     BRITTLE_FEATURE_MULTI_DRAW_INDIRECT = 16
 } BrittleDeviceFeature;
 
-/* A device of the host's. Vulkan 1.1 (the instance made for it as well), a queue of a family with compute, 16 storage buffers a stage and
- * 128 bytes of push constants are needed. Neither synchronization2 nor scalar block layout nor any extension is. */
+/* A device of the host's. Vulkan 1.1 (the instance made for it as well), a queue of a family with compute, 16 storage buffers a
+ * stage and 128 bytes of push constants are needed. Neither synchronization2 nor scalar block layout nor any extension is. */
 typedef struct BrittleVulkan {
     uint32_t struct_size;
-    VkInstance instance; /* NULL: Brittle makes instance and device of its own, and all that follows but device_name is ignored */
+    /* NULL: Brittle makes instance and device of its own, and device_name is all that counts of what follows. */
+    VkInstance instance;
     VkPhysicalDevice physical_device;
     VkDevice device;
     VkQueue queue;
     uint32_t api_version; /* VkApplicationInfo::apiVersion that the instance was made for: at least VK_API_VERSION_1_1 */
     uint32_t queue_family;
-    uint32_t features; /* BRITTLE_FEATURE_..., those that the device was made with */
+    uint32_t features;                            /* BRITTLE_FEATURE_..., those that the device was made with */
     BrittleGetProcAddress get_instance_proc_addr; /* NULL: that of the machine's Vulkan loader */
     /* Called around every use of the queue; NULL, both, where only the context's thread uses it. */
     void (*lock_queue)(void* user);
@@ -157,30 +172,31 @@ typedef struct BrittleContextDef {
 BRITTLE_API BrittleContextDef brittleDefaultContextDef(void);
 
 /* Makes a context; *context is NULL where that fails, and, there being no context to ask, the log hears why. Errors:
- * WRONG_VERSION (another major or minor version), BAD_VALUE (half of a pair of functions, handles missing, a family without compute),
- * MISSING_FEATURE, DEVICE_FAILED, CAPACITY. Any thread. */
+ * WRONG_VERSION (another major or minor version), BAD_VALUE (half of a pair of functions, handles missing, a family without
+ * compute), MISSING_FEATURE, DEVICE_FAILED, CAPACITY. Any thread. */
 BRITTLE_API BrittleResult brittleCreateContext(const BrittleContextDef* def, BrittleContext** context);
-/* [queue] Waits for the queue and destroys all that is in it. Command buffers that steps or draws were recorded into must not be
- * submitted any more. NULL does nothing. */
+/* [queue] Waits for the queue and destroys all that is in it. Command buffers that steps or draws were recorded into must not
+ * be submitted any more. NULL does nothing. */
 BRITTLE_API void brittleDestroyContext(BrittleContext* context);
 /* Of the context's last call that failed; "" where none has. Good until the next call that fails. Never NULL but for NULL. */
 BRITTLE_API const char* brittleLastError(const BrittleContext* context);
-/* What the context works on, for hosts that draw on a device that Brittle made; of such, `features` are those of the list above that it
- * has. Handles stay the context's. device_name is good as long as the context. struct_size has to be set. */
+/* What the context works on, for hosts that draw on a device that Brittle made; of such, `features` are those of the list above
+ * that it has. Handles stay the context's. device_name is good as long as the context. struct_size has to be set. */
 BRITTLE_API BrittleResult brittleGetVulkan(BrittleContext* context, BrittleVulkan* vulkan);
 
-/* ---- Meshes --------------------------------------------------------------------------------------------------------------------- */
+/* ---- Meshes
+ * --------------------------------------------------------------------------------------------------------------------- */
 
 /* A triangle mesh in memory. Corners that share a place are one vertex for breaking, whatever their normals. */
 typedef struct BrittleMeshDef {
     uint32_t struct_size;
     uint32_t vertex_count;
-    const float* positions; /* three a vertex, m */
-    const float* normals;   /* three a vertex, or NULL: those of the triangles */
-    const float* uvs;       /* two a vertex, or NULL: 0 */
+    const float* positions;                             /* three a vertex, m */
+    const float* normals;                               /* three a vertex, or NULL: those of the triangles */
+    const float* uvs;                                   /* two a vertex, or NULL: 0 */
     uint32_t position_stride, normal_stride, uv_stride; /* bytes from one to the next; 0: tightly packed; else multiples of 4 */
-    uint32_t index_count;    /* a multiple of 3, at most 9,000,000 */
-    const uint32_t* indices; /* counterclockwise seen from outside */
+    uint32_t index_count;                               /* a multiple of 3, at most 9,000,000 */
+    const uint32_t* indices;                            /* counterclockwise seen from outside */
     uint32_t is_open; /* 0: it bounds a solid, is checked for that, and may be a body; 1: any triangles, for colliders only */
 } BrittleMeshDef;
 
@@ -190,9 +206,11 @@ BRITTLE_API BrittleResult brittleCreateMesh(BrittleContext* context, const Britt
 /* Bodies that were made of it stay as they are. */
 BRITTLE_API BrittleResult brittleDestroyMesh(BrittleContext* context, BrittleMesh mesh);
 
-/* ---- Materials ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Materials
+ * ------------------------------------------------------------------------------------------------------------------ */
 
-/* A card of numbers. What is 0 is as in the built-in material that `like` names: glass, porcelain, concrete, brick, ice, stone. */
+/* A card of numbers. What is 0 is as in the built-in material that `like` names: glass, porcelain, concrete, brick, ice, stone.
+ */
 typedef struct BrittleMaterialDef {
     uint32_t struct_size;
     const char* like;        /* "glass" by default */
@@ -209,13 +227,15 @@ typedef struct BrittleMaterialDef {
 
 BRITTLE_API BrittleMaterialDef brittleDefaultMaterialDef(void);
 /* Errors: BAD_VALUE, for a name that is none (with the nearest there is) and numbers out of range. */
-BRITTLE_API BrittleResult brittleCreateMaterial(BrittleContext* context, const BrittleMaterialDef* def, BrittleMaterial* material);
+BRITTLE_API BrittleResult brittleCreateMaterial(BrittleContext* context, const BrittleMaterialDef* def,
+                                                BrittleMaterial* material);
 /* The built-in one of that name, as a material of this context like any other. Errors: BAD_VALUE. */
 BRITTLE_API BrittleResult brittleFindMaterial(BrittleContext* context, const char* name, BrittleMaterial* material);
 /* Bodies that were made of it stay as they are. */
 BRITTLE_API BrittleResult brittleDestroyMaterial(BrittleContext* context, BrittleMaterial material);
 
-/* ---- Worlds --------------------------------------------------------------------------------------------------------------------- */
+/* ---- Worlds
+ * --------------------------------------------------------------------------------------------------------------------- */
 
 /* What a world does; what an effect needs comes along, and what is not asked for costs neither memory nor time. */
 typedef enum BrittleEffect {
@@ -235,7 +255,7 @@ typedef enum BrittleEffect {
 
 /* Room. 0: chosen by what the world begins with; pairs and contacts then grow where they must. */
 typedef struct BrittleBudget {
-    uint32_t pairs;              /* of convex pieces that are near each other */
+    uint32_t pairs; /* of convex pieces that are near each other */
     uint32_t contacts;
     uint32_t fragments;          /* that there are at a time; 1024 */
     uint32_t fragment_faces;     /* of their colliders */
@@ -251,22 +271,23 @@ typedef struct BrittleWorldDef {
     uint32_t struct_size;
     uint32_t effects; /* BRITTLE_EFFECT_... */
     BrittleVec3 gravity;
-    double dt;            /* s, of a step: 1e-5 to 1 */
-    uint32_t substeps;    /* of the solver, 1 to 64 */
-    uint32_t iterations;  /* in each, 1 to 64 */
-    uint64_t seed;        /* of how things break */
-    double smallest_piece;   /* m: cells of less than the volume of such a cube are no bodies */
-    double dust_lifetime;    /* s */
-    double debris_below;     /* m: fragments of less than the volume of such a cube fade, */
-    double debris_after;     /* s after they have come to rest, */
-    double debris_fade;      /* for so many s */
-    double air_density;      /* kg/m3 */
+    double dt;             /* s, of a step: 1e-5 to 1 */
+    uint32_t substeps;     /* of the solver, 1 to 64 */
+    uint32_t iterations;   /* in each, 1 to 64 */
+    uint64_t seed;         /* of how things break */
+    double smallest_piece; /* m: cells of less than the volume of such a cube are no bodies */
+    double dust_lifetime;  /* s */
+    double debris_below;   /* m: fragments of less than the volume of such a cube fade, */
+    double debris_after;   /* s after they have come to rest, */
+    double debris_fade;    /* for so many s */
+    double air_density;    /* kg/m3 */
     double drag_coefficient;
     BrittleBudget budget;
     uint32_t has_surfaces; /* 1: it can be drawn (brittleGetDrawBuffers, brittleGetSurface); 0 saves the memory for that */
 } BrittleWorldDef;
 
-/* Earth's gravity, 60 steps a second, 4 substeps; gravity, contacts, friction, ccd, sleeping, impact_fracture, refracture, events. */
+/* Earth's gravity, 60 steps a second, 4 substeps; gravity, contacts, friction, ccd, sleeping, impact_fracture, refracture,
+ * events. */
 BRITTLE_API BrittleWorldDef brittleDefaultWorldDef(void);
 /* A world to be filled: see brittleStartWorld. Errors: BAD_VALUE. */
 BRITTLE_API BrittleResult brittleCreateWorld(BrittleContext* context, const BrittleWorldDef* def, BrittleWorld* world);
@@ -289,25 +310,30 @@ typedef struct BrittleShape {
     uint32_t point_count; /* of a hull: at least 4 that span a solid, at most 1,000,000 */
     const BrittleVec3* points;
     BrittleMesh mesh;
-    /* Of a mesh that moves: convex cells that it collides by, 1 where it is convex, more the more it is not; they leave no gap; to 4096. */
+    /* Of a mesh that moves: convex cells that it collides by, 1 where it is convex, more the more it is not; they leave no gap;
+     * to 4096. */
     uint32_t cells;
 } BrittleShape;
 
 /* How fragments lie: about the blow; evenly; in a plate in spokes and rings about the blow. */
-typedef enum BrittlePattern { BRITTLE_PATTERN_IMPACT = 0, BRITTLE_PATTERN_UNIFORM = 1, BRITTLE_PATTERN_RADIAL = 2 } BrittlePattern;
+typedef enum BrittlePattern {
+    BRITTLE_PATTERN_IMPACT = 0,
+    BRITTLE_PATTERN_UNIFORM = 1,
+    BRITTLE_PATTERN_RADIAL = 2
+} BrittlePattern;
 
 typedef struct BrittleBodyDef {
     uint32_t struct_size;
     uint32_t is_fixed; /* 1: it does not move until it breaks; velocity and spin have to be 0 */
     BrittleShape shape;
-    BrittleVec3 position; /* of the shape's origin, within 1e6 m */
-    BrittleQuat rotation; /* of the shape's frame to the world */
-    BrittleVec3 velocity; /* m/s, at most 1e4 */
-    BrittleVec3 spin;     /* rad/s, world axes */
-    double density;       /* kg/m3; 0: its material's, without one 1000 */
-    double mass;          /* kg, instead of a density; 0: by density */
-    double friction;      /* 0.6 */
-    double restitution;   /* 0 to 1; 0 */
+    BrittleVec3 position;     /* of the shape's origin, within 1e6 m */
+    BrittleQuat rotation;     /* of the shape's frame to the world */
+    BrittleVec3 velocity;     /* m/s, at most 1e4 */
+    BrittleVec3 spin;         /* rad/s, world axes */
+    double density;           /* kg/m3; 0: its material's, without one 1000 */
+    double mass;              /* kg, instead of a density; 0: by density */
+    double friction;          /* 0.6 */
+    double restitution;       /* 0 to 1; 0 */
     BrittleMaterial material; /* that it breaks as; all zeros: it does not break */
     uint32_t pattern;         /* BRITTLE_PATTERN_... */
 } BrittleBodyDef;
@@ -324,54 +350,63 @@ typedef struct BrittleColliderDef {
 /* A cube of 1 m, of no material. */
 BRITTLE_API BrittleBodyDef brittleDefaultBodyDef(void);
 BRITTLE_API BrittleColliderDef brittleDefaultColliderDef(void);
-/* Before the start. Errors: WRONG_ORDER after it; BAD_VALUE; BAD_MESH for an open mesh; WRONG_HANDLE and STALE_HANDLE of mesh and
- * material as well. */
-BRITTLE_API BrittleResult brittleAddBody(BrittleContext* context, BrittleWorld world, const BrittleBodyDef* def, BrittleBody* body);
-BRITTLE_API BrittleResult brittleAddCollider(BrittleContext* context, BrittleWorld world, const BrittleColliderDef* def, BrittleBody* collider);
+/* Before the start. Errors: WRONG_ORDER after it; BAD_VALUE; BAD_MESH for an open mesh; WRONG_HANDLE and STALE_HANDLE of mesh
+ * and material as well. */
+BRITTLE_API BrittleResult brittleAddBody(BrittleContext* context, BrittleWorld world, const BrittleBodyDef* def,
+                                         BrittleBody* body);
+BRITTLE_API BrittleResult brittleAddCollider(BrittleContext* context, BrittleWorld world, const BrittleColliderDef* def,
+                                             BrittleBody* collider);
 
-/* [queue] Makes all of it on the device: takes tenths of a second, and longer where meshes are cut into cells or nothing is in the
- * driver's cache yet. What it has is frozen then, but for what breaks. Errors: WRONG_ORDER for a second start; BAD_VALUE for a world without
- * a body; CAPACITY; DEVICE_FAILED. */
+/* [queue] Makes all of it on the device: takes tenths of a second, and longer where meshes are cut into cells or nothing is in
+ * the driver's cache yet. What it has is frozen then, but for what breaks. Errors: WRONG_ORDER for a second start; BAD_VALUE
+ * for a world without a body; CAPACITY; DEVICE_FAILED. */
 BRITTLE_API BrittleResult brittleStartWorld(BrittleContext* context, BrittleWorld world);
 
-/* ---- Stepping -------------------------------------------------------------------------------------------------------------------- */
+/* ---- Stepping
+ * -------------------------------------------------------------------------------------------------------------------- */
 
 /* All of these: WRONG_ORDER before the start; of all but the recording ones also while recorded steps are unfinished. */
 
-/* [queue] Makes so many steps and waits: 0 to 1,000,000. Errors: CAPACITY where a budget that was given is too small: the steps from that
- * one on have not been made; BAD_VALUE, once, where the motion of a body outgrew its numbers: it was stopped. */
+/* [queue] Makes so many steps and waits: 0 to 1,000,000. Errors: CAPACITY where a budget that was given is too small: the steps
+ * from that one on have not been made; BAD_VALUE, once, where the motion of a body outgrew its numbers: it was stopped. */
 BRITTLE_API BrittleResult brittleStep(BrittleContext* context, BrittleWorld world, uint32_t steps);
 
-/* Records so many steps, 1 to 1000, into a primary command buffer of the host's that is being recorded, from a pool of the context's queue family,
- * outside of render passes. They come after all that was submitted or recorded before and before all that is after. The command buffer is submitted
- * once, to the context's queue, and several of them in the order in which they were recorded into. */
-BRITTLE_API BrittleResult brittleRecordSteps(BrittleContext* context, BrittleWorld world, VkCommandBuffer commands, uint32_t steps);
-/* [queue] Once the device has finished with all command buffers that steps were recorded into: looks what became of them. Steps that had too little
- * room, and steps that were recorded and not submitted, are made now, where that can be. Where nothing was recorded it does nothing.
- * Errors: as brittleStep. */
+/* Records so many steps, 1 to 1000, into a primary command buffer of the host's that is being recorded, from a pool of the
+ * context's queue family, outside of render passes. They come after all that was submitted or recorded before and before all
+ * that is after. The command buffer is submitted once, to the context's queue, and several of them in the order in which they
+ * were recorded into. */
+BRITTLE_API BrittleResult brittleRecordSteps(BrittleContext* context, BrittleWorld world, VkCommandBuffer commands,
+                                             uint32_t steps);
+/* [queue] Once the device has finished with all command buffers that steps were recorded into: looks what became of them. Steps
+ * that had too little room, and steps that were recorded and not submitted, are made now, where that can be. Where nothing was
+ * recorded it does nothing. Errors: as brittleStep. */
 BRITTLE_API BrittleResult brittleFinishSteps(BrittleContext* context, BrittleWorld world);
 
-/* A blow by hand, in the next step that is made or recorded. Bodies of a material that are not further from `point` (world, within 1e6 m) than
- * `radius` (m, above 0, at most 1e6) share `energy` (J, above 0, at most 1e15) evenly; each is judged as in every blow: as if a ball of
- * that radius, as dense as the body and unyielding, had met it at its nearest place with that energy. So a small radius takes little energy to
- * break something, and a large one more; too little breaks nothing. Fragments are smallest within `radius`. It pushes nothing, and does not wait: what
- * the budget of a step (breaking_bodies) has no room for stays whole. At most 32 a step. Errors: BAD_VALUE, also where nothing in the world can break; CAPACITY. Allowed while
+/* A blow by hand, in the next step that is made or recorded. Bodies of a material that are not further from `point` (world,
+ * within 1e6 m) than `radius` (m, above 0, at most 1e6) share `energy` (J, above 0, at most 1e15) evenly; each is judged as in
+ * every blow: as if a ball of that radius, as dense as the body and unyielding, had met it at its nearest place with that
+ * energy. So a small radius takes little energy to break something, and a large one more; too little breaks nothing. Fragments
+ * are smallest within `radius`. It pushes nothing, and does not wait: what the budget of a step (breaking_bodies) has no room
+ * for stays whole. At most 32 a step. Errors: BAD_VALUE, also where nothing in the world can break; CAPACITY. Allowed while
  * recorded steps are unfinished. */
-BRITTLE_API BrittleResult brittleDamage(BrittleContext* context, BrittleWorld world, BrittleVec3 point, double radius, double energy);
+BRITTLE_API BrittleResult brittleDamage(BrittleContext* context, BrittleWorld world, BrittleVec3 point, double radius,
+                                        double energy);
 
-/* ---- What there is, and what happened ------------------------------------------------------------------------------------------- */
+/* ---- What there is, and what happened
+ * ------------------------------------------------------------------------------------------- */
 
 typedef struct BrittleBodyState {
     BrittleBody body;
-    BrittleBody origin;    /* the first body that a fragment was a part of, however often that broke; else the body itself */
-    BrittleVec3 position;  /* of the center of mass */
-    BrittleQuat rotation;  /* unit; of the frame that brittleGetSurface's vertices are in */
-    BrittleVec3 shape_position; /* of a body or collider, of the frame that its shape was given in; of a fragment as the two above */
+    BrittleBody origin;   /* the first body that a fragment was a part of, however often that broke; else the body itself */
+    BrittleVec3 position; /* of the center of mass */
+    BrittleQuat rotation; /* unit; of the frame that brittleGetSurface's vertices are in */
+    BrittleVec3
+        shape_position; /* of a body or collider, of the frame that its shape was given in; of a fragment as the two above */
     BrittleQuat shape_rotation;
-    BrittleVec3 velocity;  /* of the center of mass */
-    BrittleVec3 spin;      /* world axes */
-    double mass;           /* kg; 0 for what does not move */
-    double left;           /* 1; of debris that fades less, down to 0 */
+    BrittleVec3 velocity; /* of the center of mass */
+    BrittleVec3 spin;     /* world axes */
+    double mass;          /* kg; 0 for what does not move */
+    double left;          /* 1; of debris that fades less, down to 0 */
     uint32_t is_asleep;
     uint32_t is_fragment;
     uint32_t is_collider;
@@ -389,64 +424,73 @@ typedef enum BrittleOutcome {
 
 /* A body that broke, or would have. */
 typedef struct BrittleBreak {
-    BrittleBody body;      /* stale from then on, if it broke */
-    BrittleBody hit_by;    /* all zeros: brittleDamage */
-    uint32_t step;         /* counted from 1 */
-    uint32_t outcome;      /* BRITTLE_BROKE... */
-    uint32_t fragments;    /* bodies that it became */
-    uint32_t dust_cells;   /* cells too small for that */
-    double dust_mass;      /* kg of them */
-    BrittleVec3 position;  /* of the blow, world */
-    BrittleVec3 normal;    /* from the body to what hit it, unit */
-    double speed;          /* m/s along it */
-    double energy_before;  /* J, of the motion of both that met, */
-    double energy_after;   /* and after the cracks were paid for */
-    double crack_energy;   /* J */
-    double crack_area;     /* m2 */
+    BrittleBody body;     /* stale from then on, if it broke */
+    BrittleBody hit_by;   /* all zeros: brittleDamage */
+    uint32_t step;        /* counted from 1 */
+    uint32_t outcome;     /* BRITTLE_BROKE... */
+    uint32_t fragments;   /* bodies that it became */
+    uint32_t dust_cells;  /* cells too small for that */
+    double dust_mass;     /* kg of them */
+    BrittleVec3 position; /* of the blow, world */
+    BrittleVec3 normal;   /* from the body to what hit it, unit */
+    double speed;         /* m/s along it */
+    double energy_before; /* J, of the motion of both that met, */
+    double energy_after;  /* and after the cracks were paid for */
+    double crack_energy;  /* J */
+    double crack_area;    /* m2 */
 } BrittleBreak;
 
 typedef struct BrittleCounts {
     uint32_t struct_size;
-    uint32_t bodies;        /* slots of bodies, colliders and fragments that have ever held one */
-    uint32_t awake;         /* bodies that move and do not sleep */
+    uint32_t bodies; /* slots of bodies, colliders and fragments that have ever held one */
+    uint32_t awake;  /* bodies that move and do not sleep */
     uint32_t pairs, contacts;
-    uint32_t broken;        /* bodies since the beginning */
-    uint32_t fragments;     /* that they became; some may have broken again */
-    uint32_t expired;       /* fragments that have gone after their time */
-    uint32_t breaks_lost;   /* events that nobody asked for before they were overwritten: the device keeps the last 1024 */
+    uint32_t broken;      /* bodies since the beginning */
+    uint32_t fragments;   /* that they became; some may have broken again */
+    uint32_t expired;     /* fragments that have gone after their time */
+    uint32_t breaks_lost; /* events that nobody asked for before they were overwritten: the device keeps the last 1024 */
 } BrittleCounts;
 
-/* [queue] All bodies, fragments and colliders that there are, in the order of their slots. Writes up to `capacity` of them and *count,
- * all there are; where these are more: BUFFER_TOO_SMALL, and the first ones stand. `states` may be NULL where capacity is 0. */
-BRITTLE_API BrittleResult brittleGetBodies(BrittleContext* context, BrittleWorld world, BrittleBodyState* states, uint32_t capacity, uint32_t* count);
+/* [queue] All bodies, fragments and colliders that there are, in the order of their slots. Writes up to `capacity` of them and
+ * *count, all there are; where these are more: BUFFER_TOO_SMALL, and the first ones stand. `states` may be NULL where capacity
+ * is 0. */
+BRITTLE_API BrittleResult brittleGetBodies(BrittleContext* context, BrittleWorld world, BrittleBodyState* states,
+                                           uint32_t capacity, uint32_t* count);
 /* [queue] The same of one. Errors: STALE_HANDLE for a body that has broken or a fragment that is gone. */
-BRITTLE_API BrittleResult brittleGetBody(BrittleContext* context, BrittleWorld world, BrittleBody body, BrittleBodyState* state);
-/* [queue] With the effect `events`: what broke since this was last asked, the oldest first, each told once. Writes up to `capacity` and *count, how
- * many were written; what is left is told by the next call. `breaks` may be NULL where capacity is 0. */
-BRITTLE_API BrittleResult brittleGetBreaks(BrittleContext* context, BrittleWorld world, BrittleBreak* breaks, uint32_t capacity, uint32_t* count);
+BRITTLE_API BrittleResult brittleGetBody(BrittleContext* context, BrittleWorld world, BrittleBody body,
+                                         BrittleBodyState* state);
+/* [queue] With the effect `events`: what broke since this was last asked, the oldest first, each told once. Writes up to
+ * `capacity` and *count, how many were written; what is left is told by the next call. `breaks` may be NULL where capacity is
+ * 0. */
+BRITTLE_API BrittleResult brittleGetBreaks(BrittleContext* context, BrittleWorld world, BrittleBreak* breaks, uint32_t capacity,
+                                           uint32_t* count);
 /* [queue] Of the last step. struct_size has to be set. */
 BRITTLE_API BrittleResult brittleGetCounts(BrittleContext* context, BrittleWorld world, BrittleCounts* counts);
 
-/* ---- Drawing -------------------------------------------------------------------------------------------------------------------- */
+/* ---- Drawing
+ * -------------------------------------------------------------------------------------------------------------------- */
 
 /* All of these: BAD_VALUE where the world has no surfaces. */
 
-typedef struct BrittleVertex { float position[3], normal[3], uv[2]; } BrittleVertex;
+typedef struct BrittleVertex {
+    float position[3], normal[3], uv[2];
+} BrittleVertex;
 
 /* Of a slot of a body: what shaders may want to know. std430, 16 bytes. */
 typedef struct BrittleDrawnBody {
-    uint32_t body;    /* the number that brittleNumberOf gives of it */
+    uint32_t body; /* the number that brittleNumberOf gives of it */
     uint32_t made_in_step;
-    uint32_t origin;  /* the number of the first body that it was a part of */
-    float left;       /* 1; of debris that fades less, down to 0; the matrix shrinks it as much */
+    uint32_t origin; /* the number of the first body that it was a part of */
+    float left;      /* 1; of debris that fades less, down to 0; the matrix shrinks it as much */
 } BrittleDrawnBody;
 
-/* One vkCmdDrawIndexedIndirect(commands, draw_buffer, draw_offset, draw_count, draw_stride) draws all of it, with a triangle list,
- * counterclockwise front faces, the vertices of BrittleVertex at binding 0 and indices of 32 bits. Draws come in twos, a surface and the faces of
- * cuts in it; slot = gl_InstanceIndex / 2, faces of cuts where it is odd. What is not there has no instances. Buffers are the context's,
- * of the queue's family, exclusive; they may be bound as the name says, as storage and as source of copies, and must not be written.
- * A world that has made more room for pairs has other buffers, and those before are gone: look at `generation` after brittleStep,
- * brittleFinishSteps, brittleRestoreState and whatever else asks the device, or give BrittleBudget::pairs, and it never does. */
+/* One vkCmdDrawIndexedIndirect(commands, draw_buffer, draw_offset, draw_count, draw_stride) draws all of it, with a triangle
+ * list, counterclockwise front faces, the vertices of BrittleVertex at binding 0 and indices of 32 bits. Draws come in twos, a
+ * surface and the faces of cuts in it; slot = gl_InstanceIndex / 2, faces of cuts where it is odd. What is not there has no
+ * instances. Buffers are the context's, of the queue's family, exclusive; they may be bound as the name says, as storage and as
+ * source of copies, and must not be written. A world that has made more room for pairs has other buffers, and those before are
+ * gone: look at `generation` after brittleStep, brittleFinishSteps, brittleRestoreState and whatever else asks the device, or
+ * give BrittleBudget::pairs, and it never does. */
 typedef struct BrittleDrawBuffers {
     uint32_t struct_size;
     uint32_t generation;
@@ -459,28 +503,35 @@ typedef struct BrittleDrawBuffers {
     uint32_t draw_stride; /* bytes */
 } BrittleDrawBuffers;
 
-/* [queue] struct_size has to be set. Contents are those of the last brittleRecordDraws or brittleUpdateDraws. Errors: CAPACITY. */
+/* [queue] struct_size has to be set. Contents are those of the last brittleRecordDraws or brittleUpdateDraws. Errors: CAPACITY.
+ */
 BRITTLE_API BrittleResult brittleGetDrawBuffers(BrittleContext* context, BrittleWorld world, BrittleDrawBuffers* buffers);
-/* Records, as brittleRecordSteps does, the writing of draws and matrices of the bodies as they are then; places count from `origin` (world,
- * within 1e6 m), so that what is far from the world's origin is drawn as finely. Call brittleGetDrawBuffers first: WRONG_ORDER else. */
-BRITTLE_API BrittleResult brittleRecordDraws(BrittleContext* context, BrittleWorld world, VkCommandBuffer commands, BrittleVec3 origin);
+/* Records, as brittleRecordSteps does, the writing of draws and matrices of the bodies as they are then; places count from
+ * `origin` (world, within 1e6 m), so that what is far from the world's origin is drawn as finely. Call brittleGetDrawBuffers
+ * first: WRONG_ORDER else. */
+BRITTLE_API BrittleResult brittleRecordDraws(BrittleContext* context, BrittleWorld world, VkCommandBuffer commands,
+                                             BrittleVec3 origin);
 /* [queue] The same, submitted and waited for. */
 BRITTLE_API BrittleResult brittleUpdateDraws(BrittleContext* context, BrittleWorld world, BrittleVec3 origin);
 /* What BrittleDrawnBody has of a body or a fragment. Touches no device. Errors: WRONG_HANDLE. */
 BRITTLE_API BrittleResult brittleNumberOf(BrittleContext* context, BrittleWorld world, BrittleBody body, uint32_t* number);
 
 /* [queue] The surface of one body or fragment in memory: three vertices a triangle, about its center of mass, in the frame of
- * BrittleBodyState::rotation; the first *outer of *count are its own surface, the others faces of cuts. A plane is a square about the middle of
- * what began above it. Writes up to `capacity` vertices; where there are more: BUFFER_TOO_SMALL. `vertices` may be NULL where capacity is 0. */
-BRITTLE_API BrittleResult brittleGetSurface(BrittleContext* context, BrittleWorld world, BrittleBody body, BrittleVertex* vertices, uint32_t capacity, uint32_t* count, uint32_t* outer);
+ * BrittleBodyState::rotation; the first *outer of *count are its own surface, the others faces of cuts. A plane is a square
+ * about the middle of what began above it. Writes up to `capacity` vertices; where there are more: BUFFER_TOO_SMALL. `vertices`
+ * may be NULL where capacity is 0. */
+BRITTLE_API BrittleResult brittleGetSurface(BrittleContext* context, BrittleWorld world, BrittleBody body,
+                                            BrittleVertex* vertices, uint32_t capacity, uint32_t* count, uint32_t* outer);
 
-/* ---- State ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- State
+ * ---------------------------------------------------------------------------------------------------------------------- */
 
-/* [queue] All that the next step depends on, but for blows by hand that wait for it. *size: how many bytes it has; with `bytes` NULL nothing
- * else is written. Errors: BUFFER_TOO_SMALL. */
-BRITTLE_API BrittleResult brittleSaveState(BrittleContext* context, BrittleWorld world, void* bytes, size_t capacity, size_t* size);
-/* [queue] Into a world that was made of the same definitions in the same order; blows that wait for a step and events not yet told are
- * forgotten. What follows is, bit for bit, what followed then. Errors: BAD_STATE, CAPACITY. */
+/* [queue] All that the next step depends on, but for blows by hand that wait for it. *size: how many bytes it has; with `bytes`
+ * NULL nothing else is written. Errors: BUFFER_TOO_SMALL. */
+BRITTLE_API BrittleResult brittleSaveState(BrittleContext* context, BrittleWorld world, void* bytes, size_t capacity,
+                                           size_t* size);
+/* [queue] Into a world that was made of the same definitions in the same order; blows that wait for a step and events not yet
+ * told are forgotten. What follows is, bit for bit, what followed then. Errors: BAD_STATE, CAPACITY. */
 BRITTLE_API BrittleResult brittleRestoreState(BrittleContext* context, BrittleWorld world, const void* bytes, size_t size);
 /* [queue] Of the motion of all bodies: equal for equal histories on one device. */
 BRITTLE_API BrittleResult brittleHashState(BrittleContext* context, BrittleWorld world, uint64_t* hash);

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+
 namespace brittle::abi {
 namespace {
 
@@ -50,8 +52,9 @@ World& HostedWorld::running() {
 void HostedWorld::start(engine::Device& device) {
     mustNotRun();
     orRefuse(checkScene(scene));
-    if (scene.bodies.size() >= kColliders || scene.colliders.size() >= kColliders)
-        throw Refusal(BRITTLE_CAPACITY, "a world has at most 2 million bodies and 2 million colliders");
+    constexpr uint64_t kUsualFragments = 1024;
+    if (originalCount() + std::max<uint64_t>(scene.budgets.fragments, kUsualFragments) >= kColliders)
+        throw Refusal(BRITTLE_CAPACITY, "a world has at most 2 million bodies, colliders and fragments together");
     std::unique_ptr<Fracture> fracture;
     if (needsFracture(scene)) fracture = orRefuse(Fracture::create(device));
     surfaces = {};

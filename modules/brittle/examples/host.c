@@ -1,5 +1,5 @@
-/* A host of its own Vulkan device: drops a glass cube on the ground, records its steps into a command buffer of its own, breaks what is
- * left by hand, and prints what broke and a hash. README.md of the project says how to build it. */
+/* A host of its own Vulkan device: drops a glass cube on the ground, records its steps into a command buffer of its own, breaks
+ * what is left by hand, and prints what broke and a hash. README.md of the project says how to build it. */
 #include <brittle.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,8 +32,12 @@ static BrittleVulkan makeDevice(void) {
     const VkInstanceCreateInfo instance = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &app};
     const VkPhysicalDeviceFeatures enabled = {.shaderInt64 = VK_TRUE};
     const float priority = 1;
-    const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
-    const VkDeviceCreateInfo device = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue, .pEnabledFeatures = &enabled};
+    const VkDeviceQueueCreateInfo queue = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+    const VkDeviceCreateInfo device = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                       .queueCreateInfoCount = 1,
+                                       .pQueueCreateInfos = &queue,
+                                       .pEnabledFeatures = &enabled};
     BrittleVulkan vulkan = brittleDefaultContextDef().vulkan;
     uint32_t one = 1;
     mustBe(vkCreateInstance(&instance, NULL, &vulkan.instance) == VK_SUCCESS, "vkCreateInstance");
@@ -64,7 +68,8 @@ static BrittleWorld makeScene(void) {
 
 /* As an engine does in a frame: the steps are a part of its own commands. */
 static void frame(const BrittleVulkan* vulkan, VkCommandPool pool, BrittleWorld world, uint32_t steps) {
-    const VkCommandBufferAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool, .commandBufferCount = 1};
+    const VkCommandBufferAllocateInfo allocate = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool, .commandBufferCount = 1};
     const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     VkCommandBuffer commands;
     VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
@@ -83,8 +88,9 @@ static uint32_t tellBreaks(BrittleWorld world) {
     uint32_t count = 0;
     must(brittleGetBreaks(context, world, breaks, COUNT(breaks), &count));
     for (uint32_t k = 0; k < count; k++)
-        printf("step %u: %s at %.2f m/s, %u fragments, %.3f J of cracks\n", breaks[k].step, breaks[k].hit_by.id != 0 ? "hit" : "struck by hand",
-               breaks[k].speed, breaks[k].fragments, breaks[k].crack_energy);
+        printf("step %u: %s at %.2f m/s, %u fragments, %.3f J of cracks\n", breaks[k].step,
+               breaks[k].hit_by.id != 0 ? "hit" : "struck by hand", breaks[k].speed, breaks[k].fragments,
+               breaks[k].crack_energy);
     return count;
 }
 
