@@ -65,8 +65,7 @@ Polygon fourOf(const Polygon& polygon, const Double3& normal) {
     }
     std::vector<size_t> chosen = {first, second, above, below};
     std::ranges::sort(chosen);
-    const auto doubled = std::ranges::unique(chosen);
-    chosen.erase(doubled.begin(), doubled.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     Polygon four;
     for (const size_t k : chosen)
         four.push_back(polygon[k]);
