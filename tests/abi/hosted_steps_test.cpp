@@ -370,6 +370,35 @@ TEST(SmallAbiHosts, HaveWorldsOnTwoDevicesInTwoThreads) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+TEST(AbiHosts, LeaveNothingBehindInAHundredCyclesOfStartedWorlds) {
+    const HostDevice device;
+    uint64_t first = 0;
+    for (int k = 0; k < 100; ++k) {
+        BrittleContextDef def = brittleDefaultContextDef();
+        def.vulkan = device.vulkan();
+        BrittleContext* context = nullptr;
+        ASSERT_EQ(brittleCreateContext(&def, &context), BRITTLE_OK);
+        BrittleWorldDef world_def = brittleDefaultWorldDef();
+        world_def.effects = BRITTLE_EFFECT_GRAVITY | BRITTLE_EFFECT_CONTACTS;
+        const BrittleBodyDef body_def = brittleDefaultBodyDef();
+        BrittleWorld world;
+        BrittleBody body;
+        MUST(context, brittleCreateWorld(context, &world_def, &world));
+        MUST(context, brittleAddBody(context, world, &body_def, &body));
+        MUST(context, brittleStartWorld(context, world));
+        MUST(context, brittleStep(context, world, 2));
+        uint64_t hash = 0;
+        MUST(context, brittleHashState(context, world, &hash));
+        first = k == 0 ? hash : first;
+        EXPECT_EQ(hash, first);
+        if (k % 2 == 0) { // or the context does
+            MUST(context, brittleDestroyWorld(context, world));
+        }
+        brittleDestroyContext(context);
+    }
+    EXPECT_EQ(device.messages(), 0u);
+}
+
 // With and without what is used where it is present: the same bits.
 TEST(AbiHosts, GetTheSameFromPoorDevicesAsFromRichOnes) {
     const auto hashOn = [](const HostOptions& options) {
