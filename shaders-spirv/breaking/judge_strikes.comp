@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/breaking_laws.glsl"
+#include "lib/break_pattern.glsl"
 #include "lib/rigid.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
@@ -63,7 +64,7 @@ StrikeRecord recordOf(uint body, uint k) {
 bool breaksBody(uint body, StrikeRecord record) {
     BreakableBody b = breakable[body];
     Blow blow = Blow(record.blow.x, record.blow.y, float(RIGID_IMPEDANCE));
-    return breaks(cards[b.surface.w], formOf(b.form.x, b.form.y), b.form.z, blow, uint(b.high.w) == PATTERN_UNIFORM);
+    return breaks(cards[b.surface.w], formOf(b.form.x, b.form.y), b.form.z, blow, spreadOf(uint(b.high.w)));
 }
 
 void main() {
