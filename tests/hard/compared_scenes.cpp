@@ -16,8 +16,6 @@ using brittle::Double3, brittle::World, brittle::WorldContents;
 using brittle::operator-, brittle::operator*;
 using support::MeasuredScene;
 
-double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
-
 std::unique_ptr<World> worldOf(Trial& trial, const WorldContents& contents, uint32_t group_size) {
     auto world = World::create(trial.device(), contents, {}, {0, 0, group_size});
     if (world) return std::move(*world);
@@ -59,7 +57,7 @@ void checkAlike(Trial& trial, const std::string& name, double edge, const std::v
     const std::vector<Double3> places = placesInEdges(trial, name, edge);
     double most = 0;
     for (size_t b = 0; b < std::min(places.size(), expected.size()); ++b)
-        most = std::max(most, sizeOf(places[b] - expected[b]) / expected[b][1]);
+        most = std::max(most, brittle::length(places[b] - expected[b]) / expected[b][1]);
     trial.check(name + ": places, off by a share of their height", most, 0.05);
 }
 

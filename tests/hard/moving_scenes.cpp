@@ -14,8 +14,6 @@ using brittle::Double3;
 using brittle::operator-, brittle::operator*;
 using support::MeasuredScene, support::percentile;
 
-double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
-
 } // namespace
 
 void spinsFreely(Trial& trial, const SceneCase& self) {
@@ -27,8 +25,8 @@ void spinsFreely(Trial& trial, const SceneCase& self) {
     double size = 0, direction = 0, lost = 0;
     for (int part = 0; part < 10 && trial.step(run, 60); ++part) {
         const Double3 now = run.angularMomentum();
-        const double cosine = brittle::dot(now, first) / (sizeOf(now) * sizeOf(first));
-        size = std::max(size, std::fabs(sizeOf(now) / sizeOf(first) - 1));
+        const double cosine = brittle::dot(now, first) / (brittle::length(now) * brittle::length(first));
+        size = std::max(size, std::fabs(brittle::length(now) / brittle::length(first) - 1));
         direction = std::max(direction, std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi);
         lost = std::max(lost, std::fabs(run.kineticEnergy() / energy - 1));
     }
@@ -73,13 +71,13 @@ void holdsOnTheSlope(Trial& trial, const SceneCase& self) {
     MeasuredScene& run = trial.scene(self.name);
     if (!trial.step(run, 300)) return;
     const Double3 before = run.place(0);
-    if (trial.step(run, 300)) trial.check("creeping", sizeOf(run.place(0) - before), 1e-4, "m");
+    if (trial.step(run, 300)) trial.check("creeping", brittle::length(run.place(0) - before), 1e-4, "m");
 }
 
 void slidesDownTheSlope(Trial& trial, const SceneCase& self) {
     MeasuredScene& run = trial.scene(self.name);
     if (!trial.finish(run)) return;
-    trial.check("way, off by a share", std::fabs(sizeOf(run.way(0)) / 22.36 - 1), 0.02);
+    trial.check("way, off by a share", std::fabs(brittle::length(run.way(0)) / 22.36 - 1), 0.02);
 }
 
 // The highest that the middle comes after the bounce, above where it rests.
@@ -107,8 +105,8 @@ void implodes(Trial& trial, const SceneCase& self) {
     while (run.stepsLeft() > 0 && trial.step(run, std::min(5u, run.stepsLeft())))
         most = std::max(most, run.kineticEnergy());
     trial.check("kinetic energy, of that at the start", most / energy, 1);
-    trial.check("momentum, off", sizeOf(run.momentum() - linear) / all, 1e-7);
-    trial.check("angular momentum, off", sizeOf(run.angularMomentum() - angular) / all_angular, 2e-4);
+    trial.check("momentum, off", brittle::length(run.momentum() - linear) / all, 1e-7);
+    trial.check("angular momentum, off", brittle::length(run.angularMomentum() - angular) / all_angular, 2e-4);
 }
 
 void movesAlikeFarAway(Trial& trial, const SceneCase& self) {
@@ -116,7 +114,7 @@ void movesAlikeFarAway(Trial& trial, const SceneCase& self) {
     if (!trial.step(near, 300) || !trial.step(far, 300)) return;
     double most = 0;
     for (size_t b = 0; b < near.scene().bodies.size(); ++b)
-        most = std::max(most, sizeOf(near.way(b) - far.way(b)));
+        most = std::max(most, brittle::length(near.way(b) - far.way(b)));
     trial.check("ways, off from those at the origin", most, 1e-3, "m");
 }
 

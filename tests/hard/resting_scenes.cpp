@@ -16,8 +16,6 @@ using support::MeasuredScene, support::percentile;
 constexpr double kStill = 1e-4; // m/s
 
 double across(const Double3& v) { return std::hypot(v[0], v[2]); }
-double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
-
 // Looked at every so many steps, to the end.
 template <typename Look>
 void watch(Trial& trial, MeasuredScene& run, uint32_t every, const Look& look) {
@@ -82,7 +80,7 @@ void stackStands(Trial& trial, const SceneCase& self) {
     trial.check("way of the top aside", across(run.way(top)), self.parameter, "m");
     if (!trial.step(run, 300)) return;
     trial.check("way of the top aside in the end", across(run.way(top)), self.parameter, "m");
-    trial.check("creeping of the top", sizeOf(run.place(top) - before), 1e-4, "m");
+    trial.check("creeping of the top", brittle::length(run.place(top) - before), 1e-4, "m");
 }
 
 void lightCarriesHeavy(Trial& trial, const SceneCase& self) {
@@ -99,7 +97,7 @@ void cardsStand(Trial& trial, const SceneCase& self) {
     const Double3 before = run.place(top);
     if (!trial.finish(run)) return;
     trial.check("sinking of the top", -run.way(top)[1], 5e-3, "m");
-    trial.check("creeping of the top", sizeOf(run.place(top) - before), 1e-5, "m");
+    trial.check("creeping of the top", brittle::length(run.place(top) - before), 1e-5, "m");
 }
 
 void liesFlat(Trial& trial, const SceneCase& self) {
@@ -120,7 +118,8 @@ void sliversRest(Trial& trial, const SceneCase& self) {
         trial.knownShortfall("deepest overlap", deepest, 1e-3, "m");
 }
 
-// Some hull may still tip over after 5 s; which one is chance, so that energy is measured over several piles, too (pilesComeToRest).
+// Some hull may still tip over after 5 s; which one is chance, so that energy is measured over several piles, too
+// (pilesComeToRest).
 void pileSettles(Trial& trial, const SceneCase& self) {
     MeasuredScene& run = trial.scene(self.name);
     if (!trial.finish(run)) return;

@@ -2,9 +2,9 @@
 #include "tools/accuracy/fracture_run.h"
 #include "tools/accuracy/price_list.h"
 #include "tools/accuracy/report.h"
+#include "tools/accuracy/result_files.h"
 #include "tools/accuracy/sweep.h"
 #include "tools/brittle/command.h"
-#include "tools/brittle/interrupt.h"
 #include "tools/brittle/model.h"
 #include "tools/brittle/progress.h"
 
@@ -21,51 +21,14 @@ struct AccuracyOptions {
     std::string folder = "accuracy", from, device;
 };
 
-// The three files, which are there all or not at all.
-class Outputs {
-public:
-    Result<void> open(const std::filesystem::path& folder, bool with_data) {
-        std::error_code failed;
-        std::filesystem::create_directories(folder, failed);
-        if (failed)
-            return engine::Error{engine::ErrorCode::BadInput,
-                                 folder.string() + ": cannot be made: " + failed.message() + "; give another folder with -o"};
-        if (with_data)
-            for (const char* name : {"results.json", "results.csv"})
-                if (auto added = add(folder / name); !added) return added;
-        return add(folder / "report.html");
-    }
-    // The page is the last of them.
-    Result<void> write(const accuracy::Results& results) {
-        const bool with_data = files_.size() > 1;
-        std::vector<std::string> texts;
-        if (with_data) texts = {encodeResults(results), encodeCsv(results)};
-        texts.push_back(encodeReport(results));
-        for (size_t k = 0; k < files_.size(); ++k)
-            if (auto written = files_[k].write(texts[k]); !written) return written;
-        for (brittle::OutputFile& file : files_)
-            if (auto committed = file.commit(); !committed) return committed;
-        return {};
-    }
-
-private:
-    Result<void> add(const std::filesystem::path& path) {
-        auto file = createOutput(path.string());
-        if (!file) return file.error();
-        files_.push_back(std::move(*file));
-        return {};
-    }
-    std::vector<brittle::OutputFile> files_;
-};
-
 Result<void> checkModels(const std::vector<std::string>& models) {
     for (const std::string& name : models)
         if (const auto model = accuracy::soundModel(name); !model) return model.error();
     return {};
 }
 
-int show(const accuracy::Results& results, Outputs& outputs, const std::string& folder) {
-    if (auto written = outputs.write(results); !written) return fail(written.error());
+int show(const accuracy::Results& results, accuracy::ResultFiles& files, const std::string& folder) {
+    if (auto written = files.write(results); !written) return fail(written.error());
     clearProgress();
     std::printf("%s\nreport     %s\n", usefulTable(results).c_str(), (std::filesystem::path(folder) / "report.html").c_str());
     return kOk;
@@ -74,9 +37,9 @@ int show(const accuracy::Results& results, Outputs& outputs, const std::string& 
 int rewritePage(const AccuracyOptions& options) {
     const auto results = accuracy::readResults(options.from);
     if (!results) return fail(results.error());
-    Outputs outputs;
-    if (auto opened = outputs.open(options.folder, false); !opened) return fail(opened.error());
-    return show(*results, outputs, options.folder);
+    accuracy::ResultFiles files;
+    if (auto opened = files.open(options.folder, {accuracy::kPageFile}); !opened) return fail(opened.error());
+    return show(*results, files, options.folder);
 }
 
 // What `brittle hard` has left in the folder, if it was the same program on the same device.
@@ -91,13 +54,14 @@ int measureAnew(const AccuracyOptions& options) {
     if (auto sound = checkModels(options.sweep.models); !sound) return fail(sound.error());
     const auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
-    Outputs outputs;
-    if (auto opened = outputs.open(options.folder, true); !opened) return fail(opened.error());
+    accuracy::ResultFiles files;
+    if (auto opened = files.open(options.folder, {accuracy::kResultsFile, accuracy::kTableFile, accuracy::kPageFile}); !opened)
+        return fail(opened.error());
     auto results = accuracy::measureAll(**device, options.sweep);
     if (!results) return fail(results.error());
     keepHardCases(*results, options.folder);
     accuracy::keepPriceList(*results);
-    return show(*results, outputs, options.folder);
+    return show(*results, files, options.folder);
 }
 
 int runAccuracy(const AccuracyOptions& options) { return options.from.empty() ? measureAnew(options) : rewritePage(options); }

@@ -1,8 +1,7 @@
 // brittle hard: its options, its table, and what it writes.
 #include "tools/accuracy/machine.h"
-#include "tools/accuracy/report.h"
+#include "tools/accuracy/result_files.h"
 #include "tools/brittle/command.h"
-#include "tools/brittle/interrupt.h"
 #include "tools/brittle/progress.h"
 #include "tools/hard/hard_run.h"
 
@@ -91,28 +90,11 @@ Result<Results> resultsWith(const fs::path& folder, const engine::Device& device
     return results;
 }
 
-Result<void> writeFile(const fs::path& path, const std::string& text) {
-    auto file = createOutput(path.string());
-    if (!file) return file.error();
-    if (auto written = file->write(text); !written) return written;
-    return file->commit();
-}
-
-Result<void> prepareFolder(const fs::path& folder) {
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed)
-        return engine::Error{engine::ErrorCode::BadInput,
-                             folder.string() + ": cannot be made: " + failed.message() + "; give another folder with -o"};
-    // Before anything is measured, since that takes minutes.
+// Before anything is measured, since that takes minutes. What `brittle accuracy` has left has to be such results.
+Result<void> prepare(const fs::path& folder, accuracy::ResultFiles& files) {
     if (fs::exists(folder / "results.json"))
         if (const auto there = accuracy::readResults(folder / "results.json"); !there) return there.error();
-    return {};
-}
-
-Result<void> writeOutputs(const fs::path& folder, const Results& results) {
-    if (auto done = writeFile(folder / "results.json", encodeResults(results)); !done) return done;
-    return writeFile(folder / "report.html", encodeReport(results));
+    return files.open(folder, {accuracy::kResultsFile, accuracy::kPageFile});
 }
 
 int runHard(const HardOptions& options) {
@@ -121,8 +103,9 @@ int runHard(const HardOptions& options) {
             std::printf("%s\n", name.c_str());
         return kOk;
     }
+    accuracy::ResultFiles files;
     if (!options.folder.empty())
-        if (auto ready = prepareFolder(options.folder); !ready) return fail(ready.error());
+        if (auto ready = prepare(options.folder, files); !ready) return fail(ready.error());
     const auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
     auto outcomes = hard::runHardCases(**device, options.run, watchOnTerminal());
@@ -132,7 +115,7 @@ int runHard(const HardOptions& options) {
     if (!options.folder.empty()) {
         auto results = resultsWith(options.folder, **device, std::move(*outcomes));
         if (!results) return fail(results.error());
-        if (auto written = writeOutputs(options.folder, *results); !written) return fail(written.error());
+        if (auto written = files.write(*results); !written) return fail(written.error());
         std::printf("report     %s\n", (fs::path(options.folder) / "report.html").c_str());
     }
     return all_hold ? kOk : kInternalError;

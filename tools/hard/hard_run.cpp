@@ -57,23 +57,21 @@ void addFractures(std::vector<Job>& jobs, const std::shared_ptr<brittle::Fractur
                             }});
 }
 
+// What is not broken at several precisions, and costs what the clock says.
+void addJob(std::vector<Job>& jobs, const char* name, const std::function<void(Trial&)>& measure) {
+    jobs.push_back({name, kUsual, [measure](Trial& trial) {
+                        measure(trial);
+                        return FractureCost();
+                    }});
+}
+
 void addOthers(std::vector<Job>& jobs, bool is_long) {
     for (const MeshCase& one : meshCases())
-        jobs.push_back({one.name, kUsual, [one](Trial& trial) {
-                            measureMesh(trial, one);
-                            return FractureCost();
-                        }});
+        addJob(jobs, one.name, [&one](Trial& trial) { measureMesh(trial, one); });
     for (const PoolCase& one : poolCases())
-        jobs.push_back({one.name, kUsual, [one](Trial& trial) {
-                            measurePool(trial, one);
-                            return FractureCost();
-                        }});
+        addJob(jobs, one.name, [&one](Trial& trial) { measurePool(trial, one); });
     for (const SceneCase& one : sceneCases())
-        if (is_long || !one.is_long)
-            jobs.push_back({one.name, kUsual, [one](Trial& trial) {
-                                one.measure(trial, one);
-                                return FractureCost();
-                            }});
+        if (is_long || !one.is_long) addJob(jobs, one.name, [&one](Trial& trial) { one.measure(trial, one); });
 }
 
 HardCase runJob(engine::Device& device, const Job& job) {

@@ -60,9 +60,7 @@ public:
             engine::Commands& commands = *commands_[parity];
             if (auto begun = commands.begin(engine::Commands::Reuse::Many); !begun) return begun;
             if (times_passes_) commands.timeKernels();
-            Recorder recorder(commands, kernels_, b_.counts, b_.args);
-            if (auto recorded = recordStep(recorder, parity); !recorded) return recorded;
-            if (auto recorded = recorder.status(); !recorded) return recorded;
+            if (auto recorded = recordInto(commands, parity); !recorded) return recorded;
         }
         return {};
     }
@@ -267,6 +265,12 @@ public:
 
 private:
     // `blows`: by hand; nullptr for a step without, which has nothing of it.
+    Result<void> recordInto(engine::Commands& commands, uint32_t parity, const std::vector<HandBlow>* blows = nullptr) {
+        Recorder recorder(commands, kernels_, b_.counts, b_.args);
+        if (auto recorded = recordStep(recorder, parity, blows); !recorded) return recorded;
+        return recorder.status();
+    }
+
     Result<void> recordStep(Recorder& record, uint32_t parity, const std::vector<HandBlow>* blows = nullptr) {
         if (blows != nullptr && has(Effect::Sleeping)) record.commands().fill(b_.steps.sub(4 * STEPS_ASLEEP, 4), 0);
         const Step step = {settings_, b_,     b_.memory[1 - parity], b_.memory[parity],
@@ -333,20 +337,16 @@ private:
     Result<void> submitOnce(uint32_t parity, const std::vector<HandBlow>& blows) {
         engine::Commands commands(device_);
         if (auto begun = commands.begin(); !begun) return begun;
-        Recorder recorder(commands, kernels_, b_.counts, b_.args);
-        if (auto recorded = recordStep(recorder, parity, &blows); !recorded) return recorded;
-        if (auto recorded = recorder.status(); !recorded) return recorded;
+        if (auto recorded = recordInto(commands, parity, &blows); !recorded) return recorded;
         return commands.submitAndWait();
     }
 
     Result<void> recordForOthers(std::unique_ptr<engine::Commands>& recording, uint64_t step) {
         auto commands = std::make_unique<engine::Commands>(device_);
         if (auto begun = commands->begin(engine::Commands::Reuse::ByOthers); !begun) return begun;
-        Recorder recorder(*commands, kernels_, b_.counts, b_.args);
         const auto blows = strikes_.find(step);
         const auto* by_hand = blows != strikes_.end() ? &blows->second : nullptr;
-        if (auto recorded = recordStep(recorder, step & 1, by_hand); !recorded) return recorded;
-        if (auto recorded = recorder.status(); !recorded) return recorded;
+        if (auto recorded = recordInto(*commands, step & 1, by_hand); !recorded) return recorded;
         if (auto ended = commands->end(); !ended) return ended;
         recording = std::move(commands);
         return {};
