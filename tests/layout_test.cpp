@@ -12,6 +12,7 @@
 #include "shaders-spirv/shared/dust.h"
 #include "shaders-spirv/shared/fragment_record.h"
 #include "shaders-spirv/shared/hull.h"
+#include "shaders-spirv/shared/impact.h"
 #include "shaders-spirv/shared/material.h"
 #include "shaders-spirv/shared/narrow_phase.h"
 #include "shaders-spirv/shared/pool.h"
@@ -95,7 +96,7 @@ const std::vector<Row>& rows() {
          sizeof(gpu::BreakEvent),
          {MEMBER(BreakEvent, what), MEMBER(BreakEvent, made), MEMBER(BreakEvent, lacked), MEMBER(BreakEvent, sector),
           MEMBER(BreakEvent, offset), MEMBER(BreakEvent, along), MEMBER(BreakEvent, blow), MEMBER(BreakEvent, energies),
-          MEMBER(BreakEvent, born)}},
+          MEMBER(BreakEvent, born), MEMBER(BreakEvent, sizes)}},
         {"Strike", sizeof(gpu::Strike), {MEMBER(Strike, sector), MEMBER(Strike, offset), MEMBER(Strike, energy)}},
         {"StrikeRecord",
          sizeof(gpu::StrikeRecord),
@@ -105,7 +106,13 @@ const std::vector<Row>& rows() {
         {"DrawnBody",
          sizeof(gpu::DrawnBody),
          {MEMBER(DrawnBody, body), MEMBER(DrawnBody, step_made), MEMBER(DrawnBody, origin), MEMBER(DrawnBody, left)}},
-        {"DustShare", sizeof(gpu::DustShare), {MEMBER(DustShare, volume), MEMBER(DustShare, cells)}},
+        {"ImpactEvent",
+         sizeof(gpu::ImpactEvent),
+         {MEMBER(ImpactEvent, what), MEMBER(ImpactEvent, born), MEMBER(ImpactEvent, sector), MEMBER(ImpactEvent, offset),
+          MEMBER(ImpactEvent, along), MEMBER(ImpactEvent, measures)}},
+        {"SizeShare",
+         sizeof(gpu::SizeShare),
+         {MEMBER(SizeShare, dust), MEMBER(SizeShare, dust_cells), MEMBER(SizeShare, largest), MEMBER(SizeShare, smallest)}},
         {"DustParticle",
          sizeof(gpu::DustParticle),
          {MEMBER(DustParticle, sector), MEMBER(DustParticle, place), MEMBER(DustParticle, velocity),

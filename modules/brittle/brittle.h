@@ -280,6 +280,7 @@ typedef struct BrittleWorldDef {
     double debris_below;   /* m: fragments of less than the volume of such a cube fade, */
     double debris_after;   /* s after they have come to rest, */
     double debris_fade;    /* for so many s */
+    double impact_speed;   /* m/s: what meets more slowly is no impact to tell of; 1e-3 to 1e4 */
     double air_density;    /* kg/m3 */
     double drag_coefficient;
     BrittleBudget budget;
@@ -419,7 +420,8 @@ typedef enum BrittleOutcome {
     BRITTLE_WHOLE_TOO_DEAR = 2,  /* its cells have more faces between them than the blow could pay for */
     BRITTLE_WHOLE_ONE_PIECE = 3, /* all of it is one cell's */
     BRITTLE_WHOLE_FAILED = 4,    /* the budget of a step was too small, or the cut met what it cannot cut */
-    BRITTLE_WHOLE_TOO_LARGE = 5  /* no step has room for it: it never breaks */
+    BRITTLE_WHOLE_TOO_LARGE = 5, /* no step has room for it: it never breaks */
+    BRITTLE_WHOLE_NO_PAIRS = 6   /* budgets of pairs or contacts have no room for what its fragments are expected to have */
 } BrittleOutcome;
 
 /* A body that broke, or would have. */
@@ -436,19 +438,39 @@ typedef struct BrittleBreak {
     double speed;         /* m/s along it */
     double energy_before; /* J, of the motion of both that met, */
     double energy_after;  /* and after the cracks were paid for */
-    double crack_energy;  /* J */
-    double crack_area;    /* m2 */
+    double crack_energy; /* J; of two that break each other the first tells what both have paid, and the other 0 of all three */
+    double crack_area;   /* m2, of this body's cracks */
+    double largest_mass; /* kg, of its fragments, */
+    double smallest_mass;     /* and of the smallest that is a body */
+    BrittleBody origin;       /* what was added and `body` is a part of: `body` itself, if it is no fragment */
+    BrittleMaterial material; /* of all of it */
 } BrittleBreak;
+
+/* Two bodies that met and did not break of it. */
+typedef struct BrittleImpact {
+    BrittleBody bodies[2];
+    BrittleBody origins[2];       /* what was added and they are parts of: themselves, if they are no fragments */
+    BrittleMaterial materials[2]; /* all zeros: of none */
+    uint32_t step;                /* counted from 1 */
+    uint32_t points;              /* of their contact that were hit, 1 to 4 */
+    BrittleVec3 position;         /* of their middle, world */
+    BrittleVec3 normal;           /* from the first body to the second, unit */
+    double effective_mass;        /* kg, of the two there */
+    double speed;                 /* m/s along the normal */
+    double energy;                /* J, of that mass at that speed */
+    double impulse;               /* N s that have changed that speed, bouncing and all */
+} BrittleImpact;
 
 typedef struct BrittleCounts {
     uint32_t struct_size;
     uint32_t bodies; /* slots of bodies, colliders and fragments that have ever held one */
     uint32_t awake;  /* bodies that move and do not sleep */
     uint32_t pairs, contacts;
-    uint32_t broken;      /* bodies since the beginning */
-    uint32_t fragments;   /* that they became; some may have broken again */
-    uint32_t expired;     /* fragments that have gone after their time */
-    uint32_t breaks_lost; /* events that nobody asked for before they were overwritten: the device keeps the last 1024 */
+    uint32_t broken;       /* bodies since the beginning */
+    uint32_t fragments;    /* that they became; some may have broken again */
+    uint32_t expired;      /* fragments that have gone after their time */
+    uint32_t breaks_lost;  /* events that nobody asked for before they were overwritten: the device keeps the last 1024 */
+    uint32_t impacts_lost; /* likewise */
 } BrittleCounts;
 
 /* [queue] All bodies, fragments and colliders that there are, in the order of their slots. Writes up to `capacity` of them and
@@ -464,6 +486,9 @@ BRITTLE_API BrittleResult brittleGetBody(BrittleContext* context, BrittleWorld w
  * 0. */
 BRITTLE_API BrittleResult brittleGetBreaks(BrittleContext* context, BrittleWorld world, BrittleBreak* breaks, uint32_t capacity,
                                            uint32_t* count);
+/* [queue] The same for what was hit, of each step the hardest 256. */
+BRITTLE_API BrittleResult brittleGetImpacts(BrittleContext* context, BrittleWorld world, BrittleImpact* impacts,
+                                            uint32_t capacity, uint32_t* count);
 /* [queue] Of the last step. struct_size has to be set. */
 BRITTLE_API BrittleResult brittleGetCounts(BrittleContext* context, BrittleWorld world, BrittleCounts* counts);
 

@@ -5,9 +5,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
-#include "lib/breaking_laws.glsl"
-#include "lib/rigid.glsl"
+#include "shared/body.h"
 #include "shared/breaking.h"
+#include "shared/material.h"
 #include "shared/solver.h"
 
 FLAT_KERNEL;
@@ -25,7 +25,7 @@ layout(push_constant) uniform Push {
     float duration; // of a step
     float pause;    // s, in which what could not be broken is left alone
 };
-#include "lib/body_way.glsl"
+#include "lib/blow_now.glsl"
 
 // 0 where it becomes its fragments.
 uint whyWhole(uint k) {
@@ -36,32 +36,7 @@ uint whyWhole(uint k) {
 
 bool isServed(uint k) { return whyWhole(k) == 0u; }
 
-// The other object of the same pair, NO_INDEX where there is none.
-uint partnerOf(uint k) {
-    for (uint j = 0u; j < counts[COUNT_BREAKING] && j < MOST_BREAKING; j++)
-        if (j != k && broken[j].ids.z == broken[k].ids.z) return j;
-    return NO_INDEX;
-}
-
 float costOf(uint k) { return cards[breakable[broken[k].ids.x].surface.w].cracks.y * cracks[k]; }
-
-struct Mover {
-    uint body;
-    vec3 arm;
-    float inverse_mass;
-    mat3 inverse;
-};
-
-Mover moverOf(uint body, vec3 arm) {
-    return Mover(body, arm, bodies[body].offset.w, worldInertia(ownInverseInertia(shapes[body]), bodies[body].turn));
-}
-
-vec3 velocityOf(Mover m) { return bodies[m.body].velocity.xyz + cross(bodies[m.body].spin.xyz, m.arm); }
-
-float yieldOf(Mover m, vec3 n) {
-    vec3 lever = cross(m.arm, n);
-    return m.inverse_mass + dot(lever, m.inverse * lever);
-}
 
 float energyOfMotion(Mover m) {
     if (m.inverse_mass == 0.0) return 0.0;
@@ -83,19 +58,15 @@ void payByHand(uint k, float joules) {
     ledger[k].energies = vec4(energy, energy, joules, cracks[k]);
 }
 
-// Both at one place, or the pair would gain angular momentum.
 void pay(uint k, float joules) {
     uvec2 ids = broken[k].ids.xy;
     if (ids.y == NO_INDEX) {
         payByHand(k, joules);
         return;
     }
-    vec3 n = broken[k].along.xyz, arm = broken[k].place.xyz;
-    Mover own = moverOf(ids.x, arm), other = moverOf(ids.y, arm - wayBetween(ids.x, ids.y));
-    if (other.inverse_mass == 0.0) other.arm = vec3(0.0); // of an endless plane, say
-    float yield_ = yieldOf(own, n) + yieldOf(other, n), speed = max(-dot(n, velocityOf(other) - velocityOf(own)), 0.0);
-    float before = energyOfMotion(own) + energyOfMotion(other);
-    float impulse = yield_ > 0.0 ? crackImpulse(Blow(1.0 / yield_, speed, float(RIGID_IMPEDANCE)), joules) : 0.0;
+    vec3 n = broken[k].along.xyz;
+    Mover own = struckBy(k), other = striking(k);
+    float before = energyOfMotion(own) + energyOfMotion(other), impulse = crackImpulse(blowNow(own, other, n), joules);
     push(own, -impulse * n);
     push(other, impulse * n);
     broken[k].blow.w = impulse;
@@ -106,13 +77,12 @@ void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_BREAKING]) return;
     uint why = whyWhole(k);
-    ledger[k] = CrackLedger(uvec4(why, 0u, 0u, 0u), vec4(0.0));
+    uint partner = partnerOf(k);
+    bool both = partner != NO_INDEX && isServed(partner), is_paid_for = both && partner < k;
+    ledger[k] = CrackLedger(uvec4(why, is_paid_for ? 1u : 0u, 0u, 0u), vec4(0.0, 0.0, 0.0, why == 0u ? cracks[k] : 0.0));
     if (why != 0u) {
         breakable[broken[k].ids.x].form.w = float(steps[STEPS_MADE]) * duration + pause;
         return;
     }
-    uint partner = partnerOf(k);
-    bool both = partner != NO_INDEX && isServed(partner);
-    if (both && partner < k) return; // which pays for this one
-    pay(k, costOf(k) + (both ? costOf(partner) : 0.0));
+    if (!is_paid_for) pay(k, costOf(k) + (both ? costOf(partner) : 0.0));
 }

@@ -35,6 +35,7 @@ layout(push_constant) uniform Push {
     float hold; // s, for how long no blow breaks it
     float duration; // of a step
 };
+#include "lib/origin.glsl"
 #include "lib/whose_fragment.glsl"
 
 const float kLeastVolume = 1e-24; // of a grid's half edge, cubed: some steps of the grid
@@ -88,9 +89,11 @@ void setInertia(uint slot, Weighed w, BodyShape parent) {
     shapes[slot].inverse_inertia[2].xyz = vec3(0.0, 0.0, 1.0 / w.moments.z);
 }
 
-// The same for a world that runs again, and another for each fragment in each step.
+// By where its cell was, not by when it broke or what else did in that step: those hang on how long steps are.
 float strengthFor(uint f, uint parent, Weighed w, uint material) {
-    uint number = mixed(mixed(mixed(parent) ^ steps[STEPS_MADE]) + f * 0x85ebca6bu);
+    ivec3 site = inTile(sites[fragments[f].fate.z].xyz);
+    uint number = mixed(mixed(parent) ^ bornIn(parent));
+    for (uint axis = 0u; axis < 3u; axis++) number = mixed(number + uint(site[axis]));
     return strengthOf(cards[material], w.volume, chanceOf(seed_low, seed_high, number));
 }
 

@@ -99,8 +99,14 @@ float chanceOf(uint seed_low, uint seed_high, uint object) {
     return (float(hash >> CHANCE_SHIFT) + 0.5) * CHANCE_STEP;
 }
 
+// -log(chance); near 1, where a logarithm in fp32 has few digits left, its series.
+float hazardOf(float chance) {
+    float x = 1.0 - chance;
+    return x < 0.0625 ? x * (1.0 + x * (0.5 + x * (1.0 / 3.0 + x * (0.25 + x * (0.2 + x / 6.0))))) : -log(chance);
+}
+
 float strengthOf(MaterialCard card, float volume, float chance) {
-    return card.elastic.w * pow(-log(chance) / volume, card.cracks.x);
+    return card.elastic.w * pow(hazardOf(chance) / volume, card.cracks.x);
 }
 
 float impactStress(MaterialCard card, BodyForm form, Blow blow) {

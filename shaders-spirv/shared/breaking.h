@@ -76,34 +76,41 @@ struct BrokenBody {
     vec4 blow;  // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took, once it is known
     vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
     vec4 along; // normal, from the body to the other
-    vec4 share; // J, of the blow's energy that this body may spend, all of it; fragments that it pays for, room or no room
+    vec4 share; // J, of the blow's energy that this body may spend, all of it; fragments that it pays for, room or no room; of
+                // WHOLE_NO_PAIRS pairs and contacts that there is no room for
 };
 
 // What a blow has cost, in the order of BrokenBodies; with the first of two that break each other, for both.
 struct CrackLedger {
-    uvec4 outcome; // x: WHOLE_*, why the body did not become its fragments; 0 where it did
+    uvec4 outcome; // x: WHOLE_*, why the body did not become its fragments; 0 where it did; y: 1 where the first of two pays for it
     vec4 energies; // of the motion of both before and after, J that their cracks cost; w: m2 of this body's cracks
 };
 
-// Of an object that breaks, what of it is too small for a body.
-struct DustShare {
-    float volume; // m3
-    float cells;
+// Of an object that breaks, what of it is too small for a body, and how large what is not. Volumes in m3.
+struct SizeShare {
+    float dust;
+    float dust_cells;
+    float largest;
+    float smallest;
 };
 
 // What the host is told of it. Of two that break each other, the first one's energies are those of both.
 struct BreakEvent {
     uvec4 what;    // step, counted from 1; body, what hit it, NO_INDEX for a hand; its material
-    uvec4 made;    // fragments that are bodies; 0, or WHOLE_*, why the body stayed whole; of WHOLE_FAILED the count of fracture
+    uvec4 made;    // fragments that are bodies; 0, or WHOLE_*, why the body stayed whole; of what broke 1 where the event of what hit
+                   // it pays for its cracks too; of WHOLE_FAILED the count of fracture
                    // that there was no room for and how much it would have been, 0 and 0 where it was something else
-    uvec4 lacked;  // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for
+    uvec4 lacked;  // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for; of WHOLE_NO_PAIRS:
+                   // pairs, contacts
     ivec4 sector;  // of the place of the blow; w: cells that were too small to be bodies
     vec4 offset;   // w: kg of these cells
     vec4 along;    // normal, from the body to the other; w: fragments that the blow pays for, more than there are sites for
                    // where the budget of one body has cut them short
     vec4 blow;     // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took
     vec4 energies; // J, of the motion of both before and after, of the cracks; w: m2 of crack
-    uvec4 born;    // the steps that the body and what hit it were made in, 0 for what has always been: somebody else may have their slots
+    uvec4 born;    // the steps that the body and what hit it were made in, 0 for what has always been: somebody else may have their
+                   // slots; of fragments the slots of the first bodies that they were parts of, of others their own
+    vec4 sizes;    // kg, of the largest fragment and of the smallest
 };
 #define BREAK_EVENTS 1024 /* that are kept */
 
@@ -113,6 +120,7 @@ struct BreakEvent {
 #define WHOLE_ONE_PIECE 3 /* all of it is one cell's */
 #define WHOLE_FAILED 4    /* the step's event of fracture had no room for all that it met, or met what it cannot cut */
 #define WHOLE_TOO_LARGE 5 /* no step has room for its surface or its sites: it never breaks */
+#define WHOLE_NO_PAIRS 6  /* budgets have no room for the pairs and contacts that its fragments are expected to have */
 
 // Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of
 // the surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools
@@ -138,7 +146,7 @@ GPU_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 128 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
               sizeof(gpu::BlowRecord) == 64);
-static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 144 && sizeof(gpu::DustShare) == 8 &&
+static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 160 && sizeof(gpu::SizeShare) == 16 &&
               sizeof(gpu::Birth) == 48);
 #endif
 #endif

@@ -109,8 +109,8 @@
 #define STATUS_JOINED (2 * COUNT_TOTAL + 19)        /* films that have found a host */
 #define STATUS_BAD_DIAGRAM (2 * COUNT_TOTAL + 20)   /* Voronoi edges without a beginning: signs were rounded */
 #define STATUS_OPEN_OUTLINES (2 * COUNT_TOTAL + 21) /* cut faces whose outline does not close: signs were rounded */
-#define STATUS_TOO_LARGE                                                                                                       \
-    (2 * COUNT_TOTAL + 22) /* 1 where the list of what breaks is followed by a body that no step has room for */
+#define STATUS_UNFIT                                                                                                           \
+    (2 * COUNT_TOTAL + 22) /* WHOLE_*, where the list of what breaks is followed by a body that there is no room for; else 0 */
 #define STATUS_WORDS (2 * COUNT_TOTAL + 32)
 
 #define FAILED_CAPACITY 1u

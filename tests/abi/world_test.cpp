@@ -201,7 +201,8 @@ TEST(SmallAbiWorld, AnswersNullsAndIdsOfOthers) {
 // All of a break: fragments with the mass of the whole, an event that adds up, ids that go stale.
 TEST(AbiWorld, BreaksWhatFallsHardEnoughAndTellsOfIt) {
     const Hosting host;
-    const Scene scene = makeScene(host, {glassCube(host, 1.5)});
+    const BrittleBodyDef cube = glassCube(host, 1.5);
+    const Scene scene = makeScene(host, {cube});
     BrittleBodyState whole;
     MUST(host, brittleGetBody(host, scene.world, scene.bodies[0], &whole));
     MUST(host, brittleStep(host, scene.world, 40));
@@ -218,6 +219,11 @@ TEST(AbiWorld, BreaksWhatFallsHardEnoughAndTellsOfIt) {
     EXPECT_GT(b.crack_area, 0);
     EXPECT_NEAR(b.energy_before - b.energy_after, b.crack_energy, 1e-3 * b.energy_before);
     EXPECT_TRUE(breaksOf(host, scene.world).empty()) << "each is told once";
+    EXPECT_EQ(b.origin.id, b.body.id);
+    EXPECT_EQ(b.material.id, cube.material.id);
+    EXPECT_GT(b.smallest_mass, 0);
+    EXPECT_LE(b.smallest_mass, b.largest_mass);
+    EXPECT_LT(b.largest_mass, whole.mass);
 
     const auto bodies = bodiesOf(host, scene.world);
     EXPECT_EQ(bodies.size(), b.fragments + 1u);
@@ -259,6 +265,38 @@ TEST(AbiWorld, BreaksWhatFallsHardEnoughAndTellsOfIt) {
     EXPECT_EQ(counts.broken, 1u);
     EXPECT_EQ(counts.fragments, b.fragments);
     EXPECT_EQ(counts.breaks_lost, 0u);
+}
+
+TEST(AbiWorld, TellsOfWhatWasHitAndDidNotBreak) {
+    const Hosting host;
+    const BrittleBodyDef def = glassCube(host, 0.2);
+    const Scene scene = makeScene(host, {def});
+    MUST(host, brittleStep(host, scene.world, 40));
+    EXPECT_TRUE(breaksOf(host, scene.world).empty()) << "it falls from too low";
+    BrittleImpact impacts[8];
+    uint32_t count = 0;
+    MUST(host, brittleGetImpacts(host, scene.world, impacts, 8, &count));
+    ASSERT_GE(count, 1u);
+    const BrittleImpact& i = impacts[0];
+    const size_t cube = i.bodies[0].id == scene.bodies[0].id ? 0 : 1;
+    EXPECT_EQ(i.bodies[cube].id, scene.bodies[0].id);
+    EXPECT_EQ(i.origins[cube].id, scene.bodies[0].id);
+    EXPECT_EQ(i.materials[cube].id, def.material.id);
+    EXPECT_EQ(i.bodies[1 - cube].id, scene.ground.id);
+    EXPECT_EQ(i.materials[1 - cube].id, 0u);
+    EXPECT_GE(i.points, 1u);
+    EXPECT_NEAR(i.position.y, 0, 0.02);
+    EXPECT_NEAR(std::abs(i.normal.y), 1, 1e-3);
+    EXPECT_NEAR(i.energy, 0.5 * i.effective_mass * i.speed * i.speed, 1e-4 * i.energy);
+    EXPECT_GT(i.impulse, 0);
+    MUST(host, brittleGetImpacts(host, scene.world, impacts, 8, &count));
+    EXPECT_EQ(count, 0u) << "each is told once";
+    EXPECT_EQ(brittleGetImpacts(host, scene.world, nullptr, 8, &count), BRITTLE_NULL_ARGUMENT);
+    EXPECT_EQ(brittleGetImpacts(host, scene.world, impacts, 8, nullptr), BRITTLE_NULL_ARGUMENT);
+    BrittleCounts counts = {};
+    counts.struct_size = sizeof counts;
+    MUST(host, brittleGetCounts(host, scene.world, &counts));
+    EXPECT_EQ(counts.impacts_lost, 0u);
 }
 
 TEST(AbiWorld, GoesOnFromASavedStateBitForBit) {

@@ -177,8 +177,8 @@ TEST_F(SimulateCli, ABallThatBreaksGivesWayToItsFragments) {
     EXPECT_EQ(ball.firstSeen(), 0u);
     const double volume = reference::volumeOf(ball.outer);
     double sum = 0;
-    for (size_t k = 0; k < fragments; ++k) {
-        const reference::MovingBody& fragment = file.body("ball/" + std::to_string(k));
+    for (const reference::MovingBody& fragment : file.bodies) {
+        if (!fragment.name.starts_with("ball/")) continue;
         EXPECT_EQ(fragment.firstSeen(), breaks);
         EXPECT_EQ(fragment.timesSeen(), file.times.size() - breaks);
         EXPECT_FALSE(fragment.inner.empty());
@@ -215,6 +215,9 @@ TEST_F(SimulateCli, SaysWhatBrokeByWhatAndWhatStayedWhole) {
     ASSERT_EQ(breaks.size(), 2u) << breaks;
     EXPECT_EQ(breaks[0]["body"], "first");
     EXPECT_EQ(breaks[0]["hit_by"], "ground");
+    EXPECT_EQ(breaks[0]["material"], "glass");
+    EXPECT_GT(breaks[0]["fragments_paid_for"], 60u) << "more than the budget of one body has room for";
+    EXPECT_LT(breaks[0]["smallest_mass"], breaks[0]["largest_mass"]);
     EXPECT_GT(breaks[0]["fragments"], 20u);
     EXPECT_GT(breaks[0]["crack_area"], 0.0);
     EXPECT_NEAR(double{breaks[0]["place"][1]}, 0, 0.02);
@@ -230,11 +233,12 @@ TEST_F(SimulateCli, SaysWhatBrokeByWhatAndWhatStayedWhole) {
 }
 
 TEST_F(SimulateCli, NothingIsMissingWhileFragmentsBreakAgain) {
-    std::ofstream(path("twice.toml")) << "name = \"twice\"\neffects = [\"contacts\", \"impact_fracture\", \"refracture\"]\n"
-                                         "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius = 0.3\nplace = [0, 0.5, 0]\n"
-                                         "velocity = [0, -12, 0]\nmaterial = \"concrete\"\n"
-                                         "[[body]]\nname = \"block\"\nsize = [0.5, 0.5, 0.5]\nplace = [0, 2.5, 0]\n"
-                                         "velocity = [0, -12, 0]\ndensity = 7800\n[[collider]]\nname = \"ground\"\n";
+    std::ofstream(path("twice.toml"))
+        << "name = \"twice\"\neffects = [\"contacts\", \"impact_fracture\", \"refracture\", \"events\"]\n"
+           "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius = 0.3\nplace = [0, 0.5, 0]\n"
+           "velocity = [0, -12, 0]\nmaterial = \"concrete\"\n"
+           "[[body]]\nname = \"block\"\nsize = [0.5, 0.5, 0.5]\nplace = [0, 2.5, 0]\n"
+           "velocity = [0, -12, 0]\ndensity = 7800\n[[collider]]\nname = \"ground\"\n";
     const Outcome run = simulate({path("twice.toml"), "-o", path("a.glb"), "--seconds", "0.17", "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const nlohmann::json report = nlohmann::json::parse(run.out);
@@ -245,6 +249,15 @@ TEST_F(SimulateCli, NothingIsMissingWhileFragmentsBreakAgain) {
     EXPECT_TRUE(file.faults.empty()) << file.faults.front();
     EXPECT_EQ(file.bodies.size(), 3 + fragments); // each is seen at a step at least
     EXPECT_EQ(std::ranges::count_if(file.bodies, [](const auto& body) { return !body.there.back(); }), broken);
+    std::set<std::string> seen, told;
+    for (const reference::MovingBody& body : file.bodies)
+        EXPECT_TRUE(seen.insert(body.name).second) << "two go by the name " << body.name;
+    for (const auto& event : report["breaks"])
+        told.insert({event["body"], event["hit_by"]});
+    for (const auto& event : report["impacts"])
+        told.insert({event["bodies"][0], event["bodies"][1]});
+    EXPECT_GT(told.size(), 5u);
+    EXPECT_TRUE(std::ranges::includes(seen, told)) << "events name bodies as the animation does";
     std::vector<double> volumes(file.times.size());
     for (const reference::MovingBody& body : file.bodies) {
         reference::Triangles all = body.outer;

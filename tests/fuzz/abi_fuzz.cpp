@@ -184,12 +184,13 @@ void Player::ask(Input& in) {
     const BrittleBody body = pick(in, bodies);
     BrittleBodyState states[4];
     BrittleBreak breaks[4];
+    BrittleImpact impacts[4];
     BrittleVertex vertices[64];
     BrittleCounts counts = {};
     counts.struct_size = in.byte() < 8 ? in.count() : static_cast<uint32_t>(sizeof counts);
     uint32_t count = 0, outer = 0;
     uint64_t hash = 0;
-    switch (in.byte() % 8) {
+    switch (in.byte() % 9) {
     case 0: return check(brittleGetBodies(context, world, states, in.byte() % 5u, maybe(in, count)), context);
     case 1: return check(brittleGetBody(context, world, body, maybe(in, states[0])), context);
     case 2: return check(brittleGetBreaks(context, world, breaks, in.byte() % 5u, maybe(in, count)), context);
@@ -197,6 +198,7 @@ void Player::ask(Input& in) {
     case 4: return check(brittleHashState(context, world, maybe(in, hash)), context);
     case 5: return check(brittleNumberOf(context, world, body, maybe(in, count)), context);
     case 6: return check(brittleUpdateDraws(context, world, in.vector()), context);
+    case 7: return check(brittleGetImpacts(context, world, impacts, in.byte() % 5u, maybe(in, count)), context);
     default:
         return check(brittleGetSurface(context, world, body, vertices, in.byte() % 65u, maybe(in, count), maybe(in, outer)),
                      context);

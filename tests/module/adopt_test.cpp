@@ -113,8 +113,11 @@ void expectForm(const Scene& scene, const World& world, const Part& part) {
 
 double strengthBy(const Scene& scene, uint32_t number) {
     const Part& part = scene.parts[number];
-    const uint32_t draw = mixed(mixed(mixed(part.object) ^ adopting::kSteps) + number * 0x85ebca6bu);
-    const auto& material = brittle::builtinMaterials()[scene.objects[part.object].body.surface.w];
+    const gpu::BreakableBody& whole = scene.objects[part.object].body;
+    uint32_t draw = mixed(mixed(part.object) ^ static_cast<uint32_t>(whole.balance.w));
+    for (const int32_t x : adopting::siteOf(number))
+        draw = mixed(draw + static_cast<uint32_t>(x));
+    const auto& material = brittle::builtinMaterials()[whole.surface.w];
     return strengthOf(material, fragmentOf(scene, part).volume, brittle::chanceOf(adopting::kSeed, draw));
 }
 

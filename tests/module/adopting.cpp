@@ -122,6 +122,12 @@ FragmentRecord recordOf(const Object& o, const Part& part, uint32_t number, uint
     return r;
 }
 
+} // namespace
+
+std::array<int32_t, 3> siteOf(uint32_t number) { return {12345, 1 + static_cast<int32_t>(number), 77}; }
+
+namespace {
+
 // What an event would have left.
 struct Left {
     std::vector<FragmentRecord> fragments;
@@ -158,8 +164,9 @@ void addPart(Left& left, const Scene& scene, const Part& part) {
     const auto number = static_cast<uint32_t>(left.fragments.size());
     left.fragments.push_back(recordOf(o, part, number, static_cast<uint32_t>(left.vertices.size() / 3)));
     const auto tile = static_cast<int32_t>(part.object);
-    left.sites.push_back({((tile % TILES_IN_ROW) << TILE_BITS) + 12345,
-                          ((tile / TILES_IN_ROW) << TILE_BITS) + 1 + static_cast<int32_t>(number), 77, 0});
+    const auto site = siteOf(number);
+    left.sites.push_back(
+        {((tile % TILES_IN_ROW) << TILE_BITS) + site[0], ((tile / TILES_IN_ROW) << TILE_BITS) + site[1], site[2], 0});
     const Fragment& f = set.fragments[part.fragment];
     for (uint32_t k = 0; k < f.vertex_count; k++) {
         brittle::FragmentVertex v = set.vertices[f.first_vertex + k];

@@ -48,6 +48,9 @@ struct Scene {
     gpu::uvec4 sizes; // of the world's pools, by ROOM_*
 };
 
+// Of the fragment with that number, in the tile of its object.
+std::array<int32_t, 3> siteOf(uint32_t number);
+
 // Breaks all at once; each body is somewhere far from the origin, moves and spins.
 Scene breakTogether(std::vector<ToBreak> objects, uint64_t seed = 1);
 // The object stays whole.

@@ -35,7 +35,7 @@ TEST_P(HardFractures, KeepTheContract) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Quick, HardFractures, testing::ValuesIn(hard::fractureCases()),
-                         [](const auto& info) { return testName(info.param.name); });
+                         [](const auto& one) { return testName(one.param.name); });
 
 TEST(HardMeshes, AreRefusedWithWordsThatSayWhy) {
     for (const hard::MeshCase& mesh : hard::meshCases()) {

@@ -6,6 +6,10 @@ namespace cli {
 
 using engine::Result;
 
+std::string fragmentName(const std::string& origin, uint32_t step, uint32_t slot) {
+    return origin + "/" + std::to_string(step) + "." + std::to_string(slot);
+}
+
 Result<brittle::Poses> BodyCast::poses() {
     const auto states = world_.bodies();
     if (!states) return states.error();
@@ -39,7 +43,7 @@ Result<void> BodyCast::meet(std::span<const brittle::BodyFragment> fragments) {
 
 void BodyCast::add(const brittle::BodyFragment& fragment, brittle::SurfaceMesh surface) {
     const auto mesh = static_cast<uint32_t>(surfaces_.meshes.size());
-    const std::string name = surfaces_.bodies[fragment.origin].name + "/" + std::to_string(parts_of_[fragment.origin]++);
+    const std::string name = fragmentName(surfaces_.bodies[fragment.origin].name, fragment.step, fragment.slot);
     looks_[{fragment.slot, fragment.step}] = surfaces_.bodies.size();
     surfaces_.meshes.push_back(std::move(surface));
     surfaces_.bodies.push_back({mesh, name, true, false, fragment.origin});

@@ -5,9 +5,13 @@
 #include "modules/brittle/dynamics/world.h"
 
 #include <map>
+#include <string>
 #include <utility>
 
 namespace cli {
+
+// By what it was first a part of, the step that it was made in and its slot: nobody else ever has that name.
+std::string fragmentName(const std::string& origin, uint32_t step, uint32_t slot);
 
 class BodyCast {
 public:
@@ -25,8 +29,7 @@ private:
     brittle::World& world_;
     brittle::WorldSurfaces& surfaces_;
     size_t beginning_ = surfaces_.bodies.size();
-    std::map<Key, size_t> looks_;           // of fragments
-    std::map<uint32_t, uint32_t> parts_of_; // how many have been seen, of bodies of the beginning
+    std::map<Key, size_t> looks_; // of fragments
 };
 
 } // namespace cli

@@ -39,18 +39,6 @@ uint32_t moversOf(std::span<const gpu::BodyState> bodies) {
     return static_cast<uint32_t>(std::ranges::count_if(bodies, [](const gpu::BodyState& body) { return body.offset.w > 0; }));
 }
 
-// By their index in the world; of bodies that begin broken, which are many there, nobody goes by a name.
-std::vector<std::string> namesOf(const brittle::SceneDescription& scene) {
-    std::vector<std::string> names;
-    for (const brittle::BodyDescription& body : scene.bodies) {
-        if (body.shape.cells.broken) return {};
-        names.push_back(body.name);
-    }
-    for (const brittle::ColliderDescription& collider : scene.colliders)
-        names.push_back(collider.name);
-    return names;
-}
-
 class Simulation {
 public:
     Simulation(engine::Device& device, StagedScene& staged, brittle::World& world, uint32_t steps)
@@ -105,7 +93,8 @@ Result<SimulationReport> Simulation::report() const {
     report.movers = moversOf(staged_.contents.bodies);
     report.colliders = report.counts.bodies - report.movers;
     report.pieces = report.counts.pieces;
-    report.breaks = {staged_.scene.step.dt, namesOf(staged_.scene), clock_.breaks().events, clock_.breaks().lost};
+    report.told = {staged_.scene.step.dt, staged_.contents.names, staged_.contents.materials, clock_.breaks(),
+                   clock_.impacts()};
     if (steps_ > 0) {
         const auto counts = world_.counts();
         if (!counts) return counts.error();
@@ -228,8 +217,10 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"bodies_at_end", r.movers_left},
             {"broken", r.counts.broken},
             {"fragments", r.counts.fragments},
-            {"breaks", breaksJson(r.breaks)},
-            {"breaks_lost", r.breaks.lost},
+            {"breaks", breaksJson(r.told)},
+            {"breaks_lost", r.told.breaks.lost},
+            {"impacts", impactsJson(r.told)},
+            {"impacts_lost", r.told.impacts.lost},
             {"expired", r.counts.expired},
             {"dust", r.dust ? dustJson(*r.dust) : nlohmann::ordered_json()},
             {"colliders", r.colliders},
@@ -250,7 +241,7 @@ void printSimulation(const SimulationReport& r, const std::string& output) {
     if (r.counts.broken > 0)
         std::printf("broken     %u bodies, into %u fragments; %u bodies at the end\n", r.counts.broken, r.counts.fragments,
                     r.movers_left);
-    printBreaks(r.breaks);
+    printEvents(r.told);
     if (r.counts.expired > 0) std::printf("gone       %u fragments, after their time\n", r.counts.expired);
     if (r.dust) printDust(*r.dust);
     std::printf("time       %.2f ms a step (median), %.2f (99 of 100), %.0f the first; %u dispatches\n", r.median_ms, r.p99_ms,

@@ -3,7 +3,7 @@
 
 #include "engine/device.h"
 #include "modules/brittle/dynamics/scene_contents.h"
-#include "tools/brittle/break_report.h"
+#include "tools/brittle/event_report.h"
 #include "tools/brittle/motion_output.h"
 
 #include <nlohmann/json.hpp>
@@ -44,7 +44,7 @@ struct SimulationReport {
     double seconds = 0;
     size_t frames = 0; // that were written
     brittle::WorldCounts counts;
-    BreakReport breaks;
+    EventReport told;
     uint32_t movers = 0;                // at the beginning; the other bodies are colliders
     uint32_t colliders = 0, pieces = 0; // likewise
     uint32_t movers_left = 0;           // at the end, after some have become fragments

@@ -28,6 +28,12 @@ std::vector<Speck> specksOf(const std::vector<gpu::DustParticle>& dust, double l
     return specks;
 }
 
+template <class Event>
+void append(const brittle::HeardEvents<Event>& heard, brittle::HeardEvents<Event>& all) {
+    all.events.insert(all.events.end(), heard.events.begin(), heard.events.end());
+    all.lost += heard.lost;
+}
+
 } // namespace
 
 Result<Moment> WorldClock::momentAt(double time) {
@@ -66,7 +72,7 @@ Result<void> WorldClock::stepOnce() {
     if (auto done = world_.step(); !done) return done;
     ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     ++made_;
-    if (auto heard = hearBreaks(); !heard) return heard;
+    if (auto heard = hearEvents(); !heard) return heard;
     const auto timings = world_.timings();
     if (!timings) return timings.error();
     for (const engine::Timing& timing : *timings)
@@ -74,11 +80,13 @@ Result<void> WorldClock::stepOnce() {
     return {};
 }
 
-Result<void> WorldClock::hearBreaks() {
-    const auto heard = world_.breaks();
-    if (!heard) return heard.error();
-    breaks_.events.insert(breaks_.events.end(), heard->events.begin(), heard->events.end());
-    breaks_.lost += heard->lost;
+Result<void> WorldClock::hearEvents() {
+    const auto breaks = world_.breaks();
+    if (!breaks) return breaks.error();
+    append(*breaks, breaks_);
+    const auto impacts = world_.impacts();
+    if (!impacts) return impacts.error();
+    append(*impacts, impacts_);
     return {};
 }
 

@@ -21,8 +21,10 @@ public:
     // the bodies that there are at the first of the two; dust goes on from the first as it flies there.
     engine::Result<Moment> momentAt(double time);
     engine::Result<void> advanceTo(uint64_t step);
-    const brittle::Breaks& breaks() const { return breaks_; }    // of all steps, where the scene has the effect `events`
-    const std::vector<double>& stepTimes() const { return ms_; } // ms, wall clock
+    // Of all steps, where the scene has the effect `events`.
+    const brittle::Breaks& breaks() const { return breaks_; }
+    const brittle::Impacts& impacts() const { return impacts_; }
+    const std::vector<double>& stepTimes() const { return ms_; }                          // ms, wall clock
     const std::vector<std::pair<std::string, double>>& stages() const { return stages_; } // ms on the device, of all steps
 
 private:
@@ -32,7 +34,7 @@ private:
     };
     engine::Result<const Kept*> keptOf(uint64_t step);
     engine::Result<void> stepOnce();
-    engine::Result<void> hearBreaks();
+    engine::Result<void> hearEvents();
     void addStage(const engine::Timing& timing);
 
     brittle::World& world_;
@@ -41,6 +43,7 @@ private:
     uint64_t last_step_, made_ = 0;
     std::map<uint64_t, Kept> kept_; // by step: the last two that were asked for
     brittle::Breaks breaks_;
+    brittle::Impacts impacts_;
     std::vector<double> ms_;
     std::vector<std::pair<std::string, double>> stages_;
 };

@@ -83,6 +83,7 @@ SceneDescription sceneOf(const BrittleWorldDef& def) {
     scene.breaking.smallest_piece = def.smallest_piece;
     scene.dust.lifetime = def.dust_lifetime;
     scene.debris = {def.debris_below, def.debris_after, def.debris_fade};
+    scene.events = {def.impact_speed};
     scene.air_density = def.air_density;
     scene.drag_coefficient = def.drag_coefficient;
     scene.budgets = budgetOf(def.budget);

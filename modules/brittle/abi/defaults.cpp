@@ -56,6 +56,7 @@ BrittleWorldDef brittleDefaultWorldDef(void) {
     def.debris_below = usual.debris.below;
     def.debris_after = usual.debris.after;
     def.debris_fade = usual.debris.fade;
+    def.impact_speed = usual.events.impact_speed;
     def.air_density = usual.air_density;
     def.drag_coefficient = usual.drag_coefficient;
     def.has_surfaces = 1;

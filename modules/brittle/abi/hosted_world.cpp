@@ -29,6 +29,17 @@ ShapeFrame frameIn(const Pose& pose, const Double3& place, const Turn& turn) {
     return {turnedBack(pose.turn, place - pose.place), {relative.x(), relative.y(), relative.z(), relative.w()}};
 }
 
+// The device tells each event once, the host may have too little room to hear all at once.
+template <class Event>
+void keep(const HeardEvents<Event>& told, HostedWorld::Waiting<Event>& waiting) {
+    waiting.lost += told.lost;
+    for (const Event& event : told.events)
+        if (waiting.events.size() < kMostWaiting)
+            waiting.events.push_back(event);
+        else
+            ++waiting.lost;
+}
+
 } // namespace
 
 void HostedWorld::mustNotRun() const {
@@ -99,16 +110,21 @@ HostedWorld::Named HostedWorld::named(BrittleBody body) const {
     return {slot, born};
 }
 
-// The device tells each event once, the host may have too little room to hear all at once.
-std::pmr::vector<gpu::BreakEvent>& HostedWorld::hear() {
-    const Breaks told = orRefuse(running().breaks());
-    lost_ += told.lost;
-    for (const gpu::BreakEvent& event : told.events)
-        if (waiting_.size() < kMostWaiting)
-            waiting_.push_back(event);
-        else
-            ++lost_;
-    return waiting_;
+HostedWorld::Waiting<gpu::BreakEvent>& HostedWorld::hearBreaks() {
+    keep(orRefuse(running().breaks()), breaks_);
+    return breaks_;
+}
+
+HostedWorld::Waiting<gpu::ImpactEvent>& HostedWorld::hearImpacts() {
+    keep(orRefuse(running().impacts()), impacts_);
+    return impacts_;
+}
+
+BrittleMaterial HostedWorld::materialOf(uint32_t slot) const {
+    if (slot >= bodyCount()) return {};
+    for (const auto& [id, name] : material_names)
+        if (name == scene.bodies[slot].material) return {id};
+    return {};
 }
 
 } // namespace brittle::abi

@@ -23,7 +23,7 @@ struct ShapeFrame {
 class HostedWorld {
 public:
     HostedWorld(SceneDescription described, const BrittleWorldDef& def, std::pmr::memory_resource* memory)
-        : scene(std::move(described)), has_surfaces(def.has_surfaces != 0), seed(def.seed), waiting_(memory) {}
+        : scene(std::move(described)), has_surfaces(def.has_surfaces != 0), seed(def.seed), breaks_(memory), impacts_(memory) {}
     void setTag(uint64_t world_id) { tag_ = (world_id ^ world_id >> 29 ^ world_id >> 47) * 0x9e3779b97f4a7c15u >> 56; }
 
     // Refuse what is not to be called now.
@@ -48,10 +48,24 @@ public:
     };
     Named named(BrittleBody body) const; // refuses what was never an id of this world
 
-    // Events told by the device and not yet by the host; how many were lost.
-    std::pmr::vector<gpu::BreakEvent>& hear();
-    uint32_t lost() const { return lost_; }
-    void forgetEvents() { waiting_.clear(); }
+    // Events told by the device and not yet to the host; how many were lost.
+    template <class Event>
+    struct Waiting {
+        explicit Waiting(std::pmr::memory_resource* memory) : events(memory) {}
+        std::pmr::vector<Event> events;
+        uint32_t lost = 0;
+    };
+    Waiting<gpu::BreakEvent>& hearBreaks();
+    Waiting<gpu::ImpactEvent>& hearImpacts();
+    uint32_t breaksLost() const { return breaks_.lost; }
+    uint32_t impactsLost() const { return impacts_.lost; }
+    void forgetEvents() {
+        breaks_.events.clear();
+        impacts_.events.clear();
+    }
+
+    // Of a body as it was added, by its slot; none, all zeros.
+    BrittleMaterial materialOf(uint32_t slot) const;
 
     SceneDescription scene;
     std::unordered_map<uint64_t, std::string> material_names; // of the context's materials that bodies are of
@@ -67,8 +81,8 @@ private:
 
     std::unique_ptr<World> world_;
     bool has_recorded_ = false;
-    std::pmr::vector<gpu::BreakEvent> waiting_;
-    uint32_t lost_ = 0;
+    Waiting<gpu::BreakEvent> breaks_;
+    Waiting<gpu::ImpactEvent> impacts_;
     uint64_t tag_ = 0;
 };
 

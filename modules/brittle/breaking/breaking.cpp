@@ -5,6 +5,7 @@
 #include "modules/brittle/breaking/breaking_buffers.h"
 #include "modules/brittle/breaking/debris.h"
 #include "modules/brittle/breaking/dust.h"
+#include "modules/brittle/dynamics/event_ring.h"
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/upload.h"
 
@@ -78,8 +79,20 @@ public:
     void recordAdmission(const Step& s, bool struck) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("admission");
-        const uint32_t admit[] = {room_.step_bodies, room_.step_triangles, room_.step_sites, room_.most_fragments,
-                                  static_cast<uint32_t>(s.settings.breaking_seed)};
+        const auto orAll = [](uint32_t room) { return room != 0 ? room : NO_INDEX; };
+        const struct {
+            uint32_t bodies, triangles, sites, fragments, seed, pairs, contacts;
+            float duration, margin, pause;
+        } admit = {room_.step_bodies,
+                   room_.step_triangles,
+                   room_.step_sites,
+                   room_.most_fragments,
+                   static_cast<uint32_t>(s.settings.breaking_seed),
+                   orAll(room_.pairs),
+                   orAll(room_.contacts),
+                   static_cast<float>(s.settings.dt),
+                   static_cast<float>(s.settings.margin),
+                   kPause};
         if (struck)
             s.record.runGroups("admit_strikes", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
@@ -110,21 +123,7 @@ public:
         return record.status();
     }
 
-    Result<Breaks> tell(uint32_t& heard) override {
-        uint32_t told = 0;
-        const Fetch count[] = {{l_.told.sub(0, 4), &told, 4}};
-        if (auto read = fetch(device_, count); !read) return read.error();
-        const uint32_t fresh = told - heard, kept = std::min<uint32_t>(fresh, BREAK_EVENTS);
-        Breaks answer = {{}, fresh - kept};
-        heard = told;
-        if (kept == 0) return answer;
-        std::vector<gpu::BreakEvent> ring(BREAK_EVENTS);
-        const Fetch wanted[] = {{l_.ring, ring.data(), ring.size() * sizeof(gpu::BreakEvent)}};
-        if (auto read = fetch(device_, wanted); !read) return read.error();
-        for (uint32_t k = told - kept; k != told; k++)
-            answer.events.push_back(ring[k % BREAK_EVENTS]);
-        return answer;
-    }
+    Result<Breaks> tell(uint32_t& heard) override { return hear<gpu::BreakEvent>(device_, l_.told, l_.ring, heard); }
 
     std::vector<BufferView> stateViews() const override {
         std::vector<BufferView> views = {l_.breakable, l_.surface_vertices, pools_.headers, pools_.free_ranges};
@@ -172,7 +171,7 @@ private:
                     {p_.histogram, p_.digit_offsets, p_.sums});
         record.runGroups("measure_cracks", record.groupsOf(COUNT_BREAKING), least,
                          {record.counts(), p_.breaking, p_.broken, l_.breakable, l_.cards, p_.owners, p_.order, fragments,
-                          p_.cracks, p_.owner_start, p_.dust_shares});
+                          p_.cracks, p_.owner_start, p_.size_shares, s.b.bodies, s.b.shapes});
         record.run(
             "ask_rooms", all, least,
             {record.counts(), p_.owners, p_.order, fragments, colliders_->views().records, p_.cracks, p_.sizes, p_.breaking});
@@ -189,7 +188,7 @@ private:
     void recordTelling(const Step& s) {
         s.record.runGroups("tell_breaks", 1, engine::NoPush{},
                            {event_.b.counts, p_.broken, p_.ledger, p_.owner_start, s.b.bodies, l_.breakable, s.b.steps, l_.told,
-                            l_.ring, p_.lacking, p_.dust_shares, l_.cards});
+                            l_.ring, p_.lacking, p_.size_shares, l_.cards});
     }
 
     BreakableWorld worldOf(const Step& s) const {

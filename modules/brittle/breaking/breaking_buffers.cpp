@@ -31,7 +31,7 @@ constexpr ViewName<P> kPassing[] = {{&P::blows, "blows"},
                                     {&P::breaking, "breaking"},
                                     {&P::broken, "broken"},
                                     {&P::cracks, "cracks"},
-                                    {&P::dust_shares, "dust shares"},
+                                    {&P::size_shares, "size shares"},
                                     {&P::ledger, "crack ledger"},
                                     {&P::adopted, "adopted"},
                                     {&P::returned, "returned ranges"},
@@ -101,7 +101,7 @@ PassingBuffers layOutPassing(ScratchArena& arena, const BreakingSizes& n) {
     p.breaking = arena.take(MOST_BREAKING * sizeof(gpu::BreakingRecord));
     p.broken = arena.take(MOST_BREAKING * sizeof(gpu::BrokenBody));
     p.cracks = words(MOST_BREAKING);
-    p.dust_shares = arena.take(MOST_BREAKING * sizeof(gpu::DustShare));
+    p.size_shares = arena.take(MOST_BREAKING * sizeof(gpu::SizeShare));
     p.ledger = arena.take(MOST_BREAKING * sizeof(gpu::CrackLedger));
     p.adopted = words(MOST_BREAKING);
     p.returned = arena.take(MOST_BREAKING * sizeof(gpu::PoolShare));

@@ -18,7 +18,7 @@ struct LastingBuffers {
 
 // Made anew in every step.
 struct PassingBuffers {
-    engine::BufferView blows, hardest, chosen, breaking, broken, cracks, dust_shares, ledger, adopted, returned;
+    engine::BufferView blows, hardest, chosen, breaking, broken, cracks, size_shares, ledger, adopted, returned;
     engine::BufferView owners, order, other_owners, other_order, sizes, begins, rooms, owner_start, lacking;
     engine::BufferView histogram, digit_offsets, sums;
 };

@@ -2,11 +2,15 @@
 
 #include "modules/brittle/breaking/breakable.h"
 #include "shaders-spirv/shared/debris.h"
+#include "shaders-spirv/shared/pool.h"
 
 #include <algorithm>
+#include <string>
 
 namespace brittle {
 namespace {
+
+using engine::Error, engine::ErrorCode;
 
 constexpr uint32_t kFragments = 1024, kFacesOfOne = 24, kTrianglesOfOne = 96;
 constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
@@ -99,6 +103,11 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     pools.objects = fragments + static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
     pools.owners = room.step_bodies;
     pools.returned = std::max<uint32_t>(room.step_bodies, MOST_EXPIRING);
+    if (const uint32_t beside = pools.ranges() - fragments; pools.ranges() > POOL_MOST_FREE)
+        return Error{ErrorCode::Capacity, "a budget of " + std::to_string(fragments) +
+                                              " fragments at a time: beside these bodies there is room for " +
+                                              std::to_string(POOL_MOST_FREE - std::min<uint32_t>(beside, POOL_MOST_FREE)) +
+                                              " at most; give a smaller budget of fragments"};
     for (size_t k = 0; k < POOLS; ++k)
         room.free[k] = {{taken[k], pools.capacity[k] - taken[k]}};
     if (auto state = poolsWith(pools, room.free); !state) return state.error();

@@ -20,15 +20,10 @@ struct BreakingBudget {
 
 struct RoomToBreak {
     uint32_t step_bodies = 0, step_triangles = 0, step_sites = 0, most_fragments = 0, particles = 0;
-    uint32_t bodies = 0, pieces = 0; // that there are before anything breaks
+    uint32_t bodies = 0, pieces = 0;  // that there are before anything breaks
+    uint32_t pairs = 0, contacts = 0; // that there may be; 0: as many as are needed
     PoolRoom pools;
     FreeLists free; // before anything breaks
-};
-
-// What has broken since a host last asked, in order; `lost`: how many more there were than the device keeps.
-struct Breaks {
-    std::vector<gpu::BreakEvent> events;
-    uint32_t lost = 0;
 };
 
 // Every number given. Errors: Capacity for more than pools can hold (world_pools.h).

@@ -42,6 +42,8 @@ WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
         sorted.shapes.push_back(shape);
         sorted.bodies.push_back(contents.bodies[body]);
         sorted.ids.push_back(contents.ids[body]);
+        sorted.names.push_back(contents.names[body]);
+        sorted.materials.push_back(contents.materials[body]);
         if (!contents.looks.empty())
             sorted.looks.push_back(body < contents.looks.size() ? contents.looks[body] : gpu::BodyLook{});
         if (!contents.breakable.empty())

@@ -38,6 +38,7 @@ std::string nameOf(const std::string& given, const char* what, size_t index) {
 BodyDefinition bodyOf(const BodyDescription& d, const std::string& name) {
     BodyDefinition body;
     body.name = name;
+    body.material = d.material;
     body.turn = d.turn;
     body.velocity = d.velocity;
     body.spin = d.spin;

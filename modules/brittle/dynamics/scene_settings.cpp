@@ -31,6 +31,7 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.debris_below = scene.debris.below;
     s.debris_after = scene.debris.after;
     s.debris_fade = scene.debris.fade;
+    s.impact_speed = scene.events.impact_speed;
     s.air_density = scene.air_density;
     s.drag_coefficient = scene.drag_coefficient;
     s.contact_hertz = scene.step.contact_hertz;

@@ -5,6 +5,8 @@
 #include "modules/brittle/dynamics/world_buffers.h"
 #include "modules/brittle/fracture/recorder.h"
 
+#include <optional>
+
 namespace brittle {
 
 struct Step {
@@ -26,6 +28,8 @@ void recordIslands(const Step& step);                  // where bodies may sleep
 void recordColors(const Step& step);
 void recordSolve(const Step& step);
 void recordRest(const Step& step); // where bodies may sleep
+// Where there are events; `breakable`: gpu::BreakableBody, where bodies break.
+void recordImpacts(const Step& step, const std::optional<engine::BufferView>& breakable);
 void recordEnd(const Step& step);
 
 gpu::SolverPush solverPush(const Step& step);

@@ -40,6 +40,7 @@ constexpr Row kRows[] = {
     {&S::spins, "spins", std::nullopt, Per::Body, 16},
     {&S::shares, "shares", Effect::Ccd, Per::Body, 8},
     {&S::solver_contacts, "solver_contacts", kContacts, Per::Contact, sizeof(gpu::SolverContact)},
+    {&S::hits, "hits", Effect::Events, Per::Contact, 4},
     {&S::parents, "parents", kSleeping, Per::Body, 4},
     {&S::islands, "islands", kSleeping, Per::Body, 4},
     {&S::rests, "rests", kSleeping, Per::Body, 4},

@@ -49,6 +49,8 @@ Result<void> checkSettings(const StepSettings& s) {
     if (!(s.debris_below >= 0 && s.debris_below <= 1e3)) return refuse("debris below that size; give 0 to 1000 m");
     if (!(s.debris_after >= 0 && s.debris_after <= 1e6 && s.debris_fade >= 0 && s.debris_fade <= 1e6))
         return refuse("debris that rests or fades for that long; give 0 to 1e6 s");
+    if (!(s.impact_speed > 0 && s.impact_speed <= 1e4))
+        return refuse("impacts from that speed on; give more than 0, 1e4 m/s at most");
     if (!(s.blow_time >= 0 && s.blow_time <= 1e3)) return refuse("a blow of that many seconds; give 0 to 1000");
     if (!(s.margin >= 0 && s.margin <= 1)) return refuse("a margin of " + std::to_string(s.margin) + " m; give 0 to 1");
     return {};

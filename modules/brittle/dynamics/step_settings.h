@@ -35,7 +35,8 @@ struct StepSettings {
     double drag_coefficient = 0.47;
     bool impact_fracture = false; // bodies break where they are hit hard enough (breaking/breakable.h says which can)
     bool refracture = false;      // so do their fragments
-    bool events = false;          // the host is told what has broken (World::breaks)
+    bool events = false;          // the host is told what has broken and what was hit (World::breaks, World::impacts)
+    double impact_speed = 0.25;   // m/s: what meets more slowly is no impact to tell of
     uint64_t breaking_seed = 1;
     double blow_time = 0.05;       // s: for so long a blow does not break the fragments that it has made
     double smallest_piece = 0.002; // m: a cell of what breaks whose volume is less than that of a cube of this edge is no body;

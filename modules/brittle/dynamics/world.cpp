@@ -187,12 +187,22 @@ public:
     Result<Breaks> breaks() override {
         if (auto settled = settle(); !settled) return settled.error();
         if (!breaking_ || !has(Effect::Events)) return Breaks();
-        auto told = breaking_->tell(heard_);
+        auto told = breaking_->tell(heard_.breaks);
         if (!told) return told.error();
-        for (gpu::BreakEvent& event : told->events) {
-            event.what.y = bodyAsAdded(event.what.y);
-            event.what.z = bodyAsAdded(event.what.z);
-        }
+        for (gpu::BreakEvent& event : told->events)
+            for (uint32_t* body : {&event.what.y, &event.what.z, &event.born.z, &event.born.w})
+                *body = bodyAsAdded(*body);
+        return told;
+    }
+
+    Result<Impacts> impacts() override {
+        if (auto settled = settle(); !settled) return settled.error();
+        if (!has(Effect::Contacts) || !has(Effect::Events)) return Impacts();
+        auto told = hear<gpu::ImpactEvent>(device_, b_.impacts_told, b_.impacts, heard_.impacts);
+        if (!told) return told.error();
+        for (gpu::ImpactEvent& event : told->events)
+            for (uint32_t* body : {&event.what.y, &event.what.z, &event.born.z, &event.born.w})
+                *body = bodyAsAdded(*body);
         return told;
     }
 
@@ -285,6 +295,7 @@ private:
         recordColors(step);
         if (breaking_) breaking_->recordAdmission(step, blows != nullptr);
         recordSolve(step);
+        recordImpacts(step, breaking_ ? std::optional(breaking_->breakable()) : std::nullopt);
         recordEnd(step);
         if (breaking_) return breaking_->recordEvent(step);
         return {};
@@ -479,6 +490,7 @@ private:
         if (!has(Effect::Contacts)) return views;
         for (const PairMemory& memory : b_.memory)
             views.insert(views.end(), {{memory.count}, {memory.pairs, true}, {memory.contacts, true}});
+        if (has(Effect::Events)) views.insert(views.end(), {{b_.impacts_told}, {b_.impacts}});
         if (!breaking_) return views;
         for (const BufferView& view : {b_.births, b_.shapes, b_.pieces, b_.hull_records, b_.hull_vertices, b_.hull_faces,
                                        b_.hull_corners, b_.hull_edges})
@@ -513,7 +525,7 @@ private:
     uint64_t ahead_ = 0;                 // steps that were submitted since that was read
     std::unique_ptr<Breaking> breaking_; // where bodies break
     RoomToBreak to_break_;
-    uint32_t heard_ = 0; // of what broke
+    HeardSoFar heard_;
     uint32_t slots_ = 0; // of bodies, that have ever held one
     uint32_t broken_ = 0, fragments_made_ = 0, expired_ = 0;
     FragmentList fragments_;
@@ -523,10 +535,12 @@ private:
 
 // Where bodies of theirs may break, gives the contents slots for what they break into; else nothing.
 Result<std::optional<RoomToBreak>> makeRoomToBreak(WorldContents& contents, const StepSettings& settings,
-                                                   const BreakingBudget& budget) {
+                                                   const WorldBudget& budget) {
     if (!effectsOf(settings).has(Effect::ImpactFracture) || contents.breakable.empty()) return std::optional<RoomToBreak>();
-    auto room = roomToBreak(contents, budget);
+    auto room = roomToBreak(contents, budget.breaking);
     if (!room) return room.error();
+    room->pairs = budget.pairs;
+    room->contacts = budget.contacts != 0 ? budget.contacts : budget.pairs;
     contents = withRoom(contents, *room);
     return std::optional(std::move(*room));
 }
@@ -541,7 +555,7 @@ Result<std::unique_ptr<World>> World::create(engine::Device& device, const World
     if (contents.bodies.empty()) return Error{ErrorCode::BadInput, "a world without bodies; add at least one"};
     BodyOrder order = orderById(contents);
     WorldContents sorted = inOrder(contents, order);
-    const auto to_break = makeRoomToBreak(sorted, settings, budget.breaking);
+    const auto to_break = makeRoomToBreak(sorted, settings, budget);
     if (!to_break) return to_break.error();
     const uint64_t chosen =
         std::max<uint64_t>({kLeastPairs, uint64_t{kPairsPerPiece} * sorted.pieces.size(), 2 * sorted.siblings.size()});

@@ -11,9 +11,11 @@
 #include "modules/brittle/breaking/hand_blow.h"
 #include "modules/brittle/breaking/room_to_break.h"
 #include "modules/brittle/drawing/drawing.h"
+#include "modules/brittle/dynamics/event_ring.h"
 #include "modules/brittle/dynamics/step_plan.h"
 #include "modules/brittle/dynamics/step_settings.h"
 #include "modules/brittle/dynamics/world_contents.h"
+#include "shaders-spirv/shared/impact.h"
 
 #include <array>
 #include <cstdint>
@@ -47,6 +49,9 @@ struct WorldCounts {
     std::array<uint32_t, POOLS> in_use = {};
     uint32_t pool_faults = 0; // POOL_* (shaders-spirv/shared/pool.h), of any pool; each is a bug
 };
+
+using Breaks = HeardEvents<gpu::BreakEvent>;
+using Impacts = HeardEvents<gpu::ImpactEvent>;
 
 class World {
 public:
@@ -95,6 +100,9 @@ public:
     virtual engine::Result<Dust> dust() = 0;
     // With the effect `events`; the device keeps the last 1024. Bodies by their index as added, fragments by their slots.
     virtual engine::Result<Breaks> breaks() = 0;
+    // With the effect `events`: what was hit since this was last asked and did not break of it, step by step; of a step the
+    // hardest 256. The device keeps the last 1024. Bodies by their index as added, fragments by their slots.
+    virtual engine::Result<Impacts> impacts() = 0;
     // Pieces whose boxes met in the last step, the lower one first, in order. None while all sleep.
     virtual engine::Result<std::vector<std::array<uint32_t, 2>>> pairs() = 0;
     // Of the last step, by stage, and how many dispatches it has.

@@ -4,6 +4,7 @@
 #include "modules/brittle/dynamics/step_layout.h"
 #include "modules/brittle/fracture/upload.h"
 #include "shaders-spirv/shared/breaking.h"
+#include "shaders-spirv/shared/impact.h"
 
 #include <algorithm>
 #include <string>
@@ -108,6 +109,9 @@ void makeLasting(Maker& maker, const WorldContents& c, WorldBuffers& b) {
     b.args = make("arguments", 9 * COUNT_TOTAL, 4);
     b.steps = make("steps", STEPS_WORDS, 4);
     b.births = maker.make("births", Effect::ImpactFracture, c.bodies.size(), sizeof(gpu::Birth));
+    const uint64_t impacts = b.sizes.effects.has(Effect::Contacts) ? IMPACT_EVENTS : 0;
+    b.impacts_told = maker.make("impacts told", Effect::Events, IMPACT_WORDS, 4);
+    b.impacts = maker.make("impacts", Effect::Events, impacts, sizeof(gpu::ImpactEvent));
     makeHulls(maker, c, b);
 }
 
@@ -151,7 +155,7 @@ Result<void> fill(Device& device, const WorldContents& c, const WorldBuffers& b)
     if (auto begun = commands.begin(); !begun) return begun;
     for (const PairMemory& memory : b.memory)
         commands.fill(memory.count, 0);
-    for (const BufferView* view : {&b.counts, &b.args, &b.births})
+    for (const BufferView* view : {&b.counts, &b.args, &b.births, &b.impacts_told})
         commands.fill(*view, 0);
     upload.copy(commands, *staging);
     return commands.submitAndWait();

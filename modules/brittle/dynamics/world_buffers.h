@@ -31,8 +31,8 @@ struct PairMemory {
 // Made anew in every step.
 struct StepBuffers {
     engine::BufferView box_low, box_high, recalled, fresh, fresh_slots, sums, fresh_pairs, manifolds, axes, narrow_arguments,
-        touches, contact_offsets, contact_pairs, contact_slots, solver_bodies, spins, shares, solver_contacts, body_colors,
-        bids, waiting, color_start, parents, islands, rests, island_contacts, island_ranges, listed, color_ends,
+        touches, contact_offsets, contact_pairs, contact_slots, solver_bodies, spins, shares, solver_contacts, hits,
+        body_colors, bids, waiting, color_start, parents, islands, rests, island_contacts, island_ranges, listed, color_ends,
         adjacency_counts, adjacency_start, adjacency_cursors, loose_adjacency, adjacency;
     BroadPhaseScratch broad_phase;
 };
@@ -49,9 +49,10 @@ struct NamedBuffer {
 struct WorldBuffers {
     engine::BufferView hull_records, hull_vertices, hull_faces, hull_corners, hull_edges;
     engine::BufferView pieces, bodies, shapes;
-    engine::BufferView counts, args; // as a fracture event's (shared/fracture.h), indices in shared/solver.h
-    engine::BufferView steps;        // shared/solver.h, STEPS_*
-    engine::BufferView births;       // gpu::Birth, by slot of a body
+    engine::BufferView counts, args;          // as a fracture event's (shared/fracture.h), indices in shared/solver.h
+    engine::BufferView steps;                 // shared/solver.h, STEPS_*
+    engine::BufferView births;                // gpu::Birth, by slot of a body
+    engine::BufferView impacts_told, impacts; // shared/impact.h
     std::array<PairMemory, 2> memory;
     StepBuffers step;
     std::vector<NamedBuffer> named; // all of these, the dummy among them

@@ -191,6 +191,8 @@ Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body) {
     contents.bodies.push_back(stateOf(body, principal));
     contents.shapes.push_back(shapeOf(contents, body, principal, first));
     contents.ids.push_back(body.id);
+    contents.names.push_back(body.name);
+    contents.materials.push_back(body.material);
     return index;
 }
 

@@ -28,8 +28,9 @@ struct PieceShape {
 using Turn = std::array<double, 4>; // a quaternion x, y, z, w of any length but 0: own frame to world
 
 struct BodyDefinition {
-    std::string name; // for messages
-    uint64_t id = 0;  // a world is the same, bit for bit, in whatever order its bodies are added, if these are all different
+    std::string name;     // for messages
+    std::string material; // likewise, of what it is made; empty for what says nothing of that
+    uint64_t id = 0; // a world is the same, bit for bit, in whatever order its bodies are added, if these are all different
     std::vector<PieceShape> pieces;
     Double3 place = {0, 0, 0}; // of the center of mass
     Turn turn = {0, 0, 0, 1};
@@ -53,8 +54,9 @@ struct WorldContents {
     std::vector<gpu::PieceRecord> pieces;
     std::vector<gpu::BodyState> bodies;
     std::vector<gpu::BodyShape> shapes;
-    std::vector<uint64_t> ids;            // of bodies
-    std::vector<SiblingContact> siblings; // a pair once, of different bodies
+    std::vector<uint64_t> ids;                 // of bodies
+    std::vector<std::string> names, materials; // of bodies, for messages
+    std::vector<SiblingContact> siblings;      // a pair once, of different bodies
     // What breaks (breaking/breakable.h), by body; those behind the last do not.
     std::vector<gpu::BreakableBody> breakable;
     std::vector<gpu::MaterialCard> cards;

@@ -14,7 +14,7 @@ using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
 
-constexpr uint64_t kMark = 0x31657461'74537242; // "BrState1"
+constexpr uint64_t kMark = 0x32657461'74537242; // "BrState2"
 
 Error otherContents(const std::string& what) {
     return {ErrorCode::BadInput,
@@ -39,8 +39,9 @@ Result<void> checkSizes(std::span<const uint64_t> sizes, uint64_t bytes, std::sp
 
 } // namespace
 
-Result<std::vector<std::byte>> readState(engine::Device& device, std::span<const StateView> views, uint32_t heard) {
-    std::vector<uint64_t> head = {kMark, heard, views.size()};
+Result<std::vector<std::byte>> readState(engine::Device& device, std::span<const StateView> views, const HeardSoFar& heard) {
+    const uint64_t heard_word = uint64_t{heard.impacts} << 32 | heard.breaks;
+    std::vector<uint64_t> head = {kMark, heard_word, views.size()};
     uint64_t bytes = headBytes(views.size());
     for (const StateView& each : views) {
         head.push_back(each.view.size);
@@ -66,7 +67,7 @@ Result<StateHead> headOf(std::span<const std::byte> state, std::span<const State
     if (words[0] != kMark || words[2] != views.size()) return otherContents("these bytes are no state of such a world");
     const std::vector<uint64_t> sizes(words.begin() + kBeforeSizes, words.end());
     if (auto sound = checkSizes(sizes, state.size() - head, views); !sound) return sound.error();
-    return StateHead{static_cast<uint32_t>(words[1]), sizes};
+    return StateHead{{static_cast<uint32_t>(words[1]), static_cast<uint32_t>(words[1] >> 32)}, sizes};
 }
 
 Result<void> writeState(engine::Device& device, std::span<const std::byte> state, std::span<const StateView> views) {

@@ -16,11 +16,16 @@ struct StateView {
     bool grows = false; // a world may have made more room here since a state was saved, or before
 };
 
-// `heard`: how much of what the device tells the host has heard.
-engine::Result<std::vector<std::byte>> readState(engine::Device& device, std::span<const StateView> views, uint32_t heard);
+// How much of what the device tells the host has heard.
+struct HeardSoFar {
+    uint32_t breaks = 0, impacts = 0;
+};
+
+engine::Result<std::vector<std::byte>> readState(engine::Device& device, std::span<const StateView> views,
+                                                 const HeardSoFar& heard);
 
 struct StateHead {
-    uint32_t heard = 0;
+    HeardSoFar heard;
     std::vector<uint64_t> sizes; // bytes of each buffer
 };
 // Errors: BadInput for what is no state of such buffers, or not all of it. Only of those that grow there may be more in it.

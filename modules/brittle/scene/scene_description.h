@@ -138,6 +138,11 @@ struct DebrisDescription {
     bool operator==(const DebrisDescription&) const = default;
 };
 
+struct EventsDescription {
+    double impact_speed = 0.25;
+    bool operator==(const EventsDescription&) const = default;
+};
+
 // 0: as many as the scene needs at its beginning, with room to break.
 struct BudgetDescription {
     uint32_t bodies = 0;
@@ -176,6 +181,7 @@ struct SceneDescription {
     BreakingDescription breaking;
     DustDescription dust;
     DebrisDescription debris;
+    EventsDescription events;
     BudgetDescription budgets;
     CameraDescription camera;
     std::vector<MaterialDescription> materials;

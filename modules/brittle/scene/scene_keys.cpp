@@ -116,9 +116,16 @@ constexpr SceneKey kDebrisKeys[] = {
     {"fade", at<&DebrisDescription::fade>, from(0, 1e6), "s", "that they take to shrink to nothing; then they are gone"},
 };
 
+constexpr SceneKey kEventsKeys[] = {
+    {"impact_speed", at<&EventsDescription::impact_speed>, from(1e-3, 1e4), "m/s",
+     "what meets more slowly is no impact to tell of"},
+};
+
 constexpr SceneKey kBudgetKeys[] = {
-    {"bodies", at<&BudgetDescription::bodies>, from(0, kMostElements), "", "at most; 0: what the scene needs"},
-    {"pieces", at<&BudgetDescription::pieces>, from(0, kMostElements), "", "convex ones, at most; 0: what the scene needs"},
+    {"bodies", at<&BudgetDescription::bodies>, from(0, kMostElements), "",
+     "that the scene begins with, at most; 0: what it needs"},
+    {"pieces", at<&BudgetDescription::pieces>, from(0, kMostElements), "",
+     "convex ones that it begins with, at most; 0: what it needs"},
     {"pairs", at<&BudgetDescription::pairs>, from(0, kMostElements), "", "of pieces that are near, at most; 0: what is needed"},
     {"contacts", at<&BudgetDescription::contacts>, from(0, kMostElements), "", "pairs that touch, at most; 0: what is needed"},
     {"fragments", at<&BudgetDescription::fragments>, from(0, kMostElements), "", "that there are at a time; 0: 1024"},
@@ -250,6 +257,7 @@ constexpr SceneSection kSections[] = {
     {SectionId::Breaking, "breaking", false, kBreakingKeys, "Acts where `effects` has impact_fracture."},
     {SectionId::Dust, "dust", false, kDustKeys, "Acts where `effects` has dust."},
     {SectionId::Debris, "debris", false, kDebrisKeys, "Acts where `effects` has debris_lifetime."},
+    {SectionId::Events, "events", false, kEventsKeys, "Acts where `effects` has events."},
     {SectionId::Budgets, "budgets", false, kBudgetKeys, "Room on the device. What does not fit is reported, never dropped."},
     {SectionId::Camera, "camera", false, kCameraKeys, "For pictures and films."},
     {SectionId::Material, "material", true, kMaterialKeys,
@@ -284,6 +292,7 @@ void* ownerOf(SceneDescription& scene, SectionId id, size_t index) {
     case SectionId::Breaking: return &scene.breaking;
     case SectionId::Dust: return &scene.dust;
     case SectionId::Debris: return &scene.debris;
+    case SectionId::Events: return &scene.events;
     case SectionId::Budgets: return &scene.budgets;
     case SectionId::Camera: return &scene.camera;
     case SectionId::Material: return &scene.materials[index];

@@ -42,7 +42,7 @@ struct SceneKey {
     ShapeBits shapes = kEveryShape;
 };
 
-enum class SectionId : uint8_t { Scene, Step, Breaking, Dust, Debris, Budgets, Camera, Material, Body, Collider };
+enum class SectionId : uint8_t { Scene, Step, Breaking, Dust, Debris, Events, Budgets, Camera, Material, Body, Collider };
 
 struct SceneSection {
     SectionId id = SectionId::Scene;

@@ -1,0 +1,4 @@
+// Who is in a slot of a body: the step that a fragment was made in, 0 for what has always been; the slot of the first body that it
+// was a part of, its own for what is no fragment. Wants `breakable` declared.
+uint bornIn(uint body) { return uint(breakable[body].balance.w); }
+uint originOf(uint body) { return bornIn(body) != 0u ? uint(breakable[body].low.w) : body; }
