@@ -9,24 +9,29 @@
 namespace hard {
 namespace {
 
-using brittle::BreakingBudget, brittle::World;
+using brittle::World, brittle::WorldBudget;
 
 constexpr double kBall = 0.1;              // m, radius
 constexpr uint32_t kFall = 60, kRest = 60; // steps
 
 constexpr PoolCase kCases[] = {
     {"full pools of bodies and pieces",
-     [](BreakingBudget& b) {
-         b.fragments = 20;
-         b.faces = 40000;
-         b.triangles = 90000;
+     [](WorldBudget& b) {
+         b.breaking.fragments = 20;
+         b.breaking.faces = 40000;
+         b.breaking.triangles = 90000;
      },
      WHOLE_NO_ROOM,
      {true, true, false, false}},
-    {"full pool of faces", [](BreakingBudget& b) { b.faces = 100; }, WHOLE_NO_ROOM, {false, false, true, false}},
-    {"full pool of triangles", [](BreakingBudget& b) { b.triangles = 300; }, WHOLE_NO_ROOM, {false, false, false, true}},
-    {"all pools full", [](BreakingBudget& b) { b.fragments = 3; }, WHOLE_NO_ROOM, {true, true, true, true}},
-    {"no room for the triangles of a step", [](BreakingBudget& b) { b.step_triangles = 8; }, WHOLE_TOO_LARGE},
+    {"full pool of faces", [](WorldBudget& b) { b.breaking.faces = 100; }, WHOLE_NO_ROOM, {false, false, true, false}},
+    {"full pool of triangles", [](WorldBudget& b) { b.breaking.triangles = 300; }, WHOLE_NO_ROOM, {false, false, false, true}},
+    {"all pools full", [](WorldBudget& b) { b.breaking.fragments = 3; }, WHOLE_NO_ROOM, {true, true, true, true}},
+    {"no room for the triangles of a step", [](WorldBudget& b) { b.breaking.step_triangles = 8; }, WHOLE_TOO_LARGE},
+    {"no room for the pairs of fragments", [](WorldBudget& b) { b.pairs = 8; }, WHOLE_NO_PAIRS, {true, true, false, false}},
+    {"no room for the contacts of fragments",
+     [](WorldBudget& b) { b.contacts = 8; },
+     WHOLE_NO_PAIRS,
+     {false, true, false, false}},
 };
 
 brittle::SceneDescription fallingBall() {
@@ -41,14 +46,14 @@ brittle::SceneDescription fallingBall() {
     return scene;
 }
 
-std::unique_ptr<World> worldOf(Trial& trial, const brittle::SceneDescription& scene, const BreakingBudget& budget) {
+std::unique_ptr<World> worldOf(Trial& trial, const brittle::SceneDescription& scene, const WorldBudget& budget) {
     const auto contents = brittle::contentsOf(scene, {}, nullptr);
     const auto settings = brittle::settingsOf(scene);
     if (!contents || !settings) {
         trial.fail(contents ? settings.error().message : contents.error().message);
         return nullptr;
     }
-    auto world = World::create(trial.device(), *contents, *settings, {.breaking = budget});
+    auto world = World::create(trial.device(), *contents, *settings, budget);
     if (world) return std::move(*world);
     trial.fail(world.error().message);
     return nullptr;
@@ -93,7 +98,7 @@ void checkBall(Trial& trial, World& world) {
 std::span<const PoolCase> poolCases() { return kCases; }
 
 void measurePool(Trial& trial, const PoolCase& self) {
-    BreakingBudget budget;
+    WorldBudget budget;
     self.shrink(budget);
     const auto world = worldOf(trial, fallingBall(), budget);
     if (!world) return;

@@ -1,16 +1,16 @@
 // Worlds that break more than there is room for: every pool full to the brim.
 #pragma once
 
-#include "modules/brittle/breaking/room_to_break.h"
+#include "modules/brittle/dynamics/world.h"
 #include "tests/hard/hard_case.h"
 
 namespace hard {
 
 struct PoolCase {
     const char* name;
-    void (*shrink)(brittle::BreakingBudget& budget);
+    void (*shrink)(brittle::WorldBudget& budget);
     uint32_t why = 0;               // WHOLE_*, that the event says
-    std::array<bool, 4> lacks = {}; // of bodies, pieces, faces and triangles
+    std::array<bool, 4> lacks = {}; // of bodies, pieces, faces and triangles; of WHOLE_NO_PAIRS pairs and contacts
 };
 
 std::span<const PoolCase> poolCases();
