@@ -27,6 +27,8 @@ layout(push_constant) uniform Push {
     float fade_duration;
 };
 
+#include "lib/origin.glsl"
+
 float leftOf(uint slot) {
     if (fades_after < 0.0) return 1.0;
     float over = clocks[slot].offset.w - fades_after;
@@ -54,8 +56,7 @@ void main() {
     vec4 turn = can_break ? breakable[slot].turn : vec4(0.0, 0.0, 0.0, 1.0);
     vec3 balance = can_break ? breakable[slot].balance.xyz : vec3(0.0);
     float left = leftOf(slot);
-    bool is_fragment = can_break && breakable[slot].balance.w > 0.0;
-    uint origin = is_fragment ? uint(breakable[slot].low.w) : slot, step_made = is_fragment ? uint(breakable[slot].balance.w) : 0u;
+    uint origin = can_break ? originOf(slot) : slot, step_made = can_break ? bornIn(slot) : 0u;
     writeDraws(slot, surface, present);
     matrices[slot].model = modelOf(body, turn, balance, left);
     drawn[slot] = DrawnBody(looks[slot].surface.w, step_made, looks[origin].surface.w, left);

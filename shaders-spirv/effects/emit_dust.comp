@@ -38,6 +38,7 @@ layout(push_constant) uniform Push {
 };
 #include "lib/dust_mass.glsl"
 #include "lib/hash.glsl"
+#include "lib/origin.glsl"
 #include "lib/particles_of_cell.glsl"
 #include "lib/whose_fragment.glsl"
 
@@ -75,11 +76,9 @@ DustParticle particleAt(vec3 place, float mass, float radius, uint parent) {
     vec3 way = turned(body.turn, turned(breakable[parent].turn, place - breakable[parent].balance.xyz));
     vec3 offset = body.offset.xyz + way;
     ivec3 sectors = sectorsIn(offset);
-    bool again = breakable[parent].balance.w > 0.0;
-    uint origin = again ? uint(breakable[parent].low.w) : parent;
     return DustParticle(ivec4(body.sector.xyz + sectors, int(breakable[parent].surface.w)),
                         vec4(offsetWithin(offset, sectors), radius),
-                        vec4(body.velocity.xyz + cross(body.spin.xyz, way), mass), uvec4(steps[STEPS_MADE], origin, 0u, 0u));
+                        vec4(body.velocity.xyz + cross(body.spin.xyz, way), mass), uvec4(steps[STEPS_MADE], originOf(parent), 0u, 0u));
 }
 
 // Where there are more than the ring holds, the oldest make room, and the first of this very event are never there.
