@@ -78,6 +78,7 @@ Result<void> Commands::begin(Reuse reuse) {
     error_.reset();
     hazards_.flush();
     descriptors_.reset();
+    pipelines_.clear();
     timestamps_.reset();
     dispatch_count_ = 0;
     barrier_count_ = 0;
@@ -212,7 +213,8 @@ bool Commands::prepare(const Kernel& kernel, Bytes push, Views buffers, const Bu
     }
     declare({accesses.data(), count});
     const VolkDeviceTable& vk = device_.vk();
-    vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
+    vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->handle());
+    if (pipelines_.empty() || pipelines_.back() != kernel.pipeline) pipelines_.push_back(kernel.pipeline);
     if (!push.empty()) {
         vk.vkCmdPushConstants(commands_, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size,
                               push.data());

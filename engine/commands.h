@@ -42,7 +42,8 @@ public:
 
     // With a command buffer of its own, for the compute queue.
     explicit Commands(Device& device);
-    // Only records, into a command buffer of the caller, who has begun it, ends it and submits it to the compute queue.
+    // Only records, into a command buffer of the caller, who has begun it, ends it and submits it to the compute queue. What
+    // was dispatched may not be replaced (KernelLibrary::adopt) before the device has finished, unless this still exists then.
     Commands(Device& device, VkCommandBuffer external);
     ~Commands();
     Commands(const Commands&) = delete;
@@ -154,6 +155,7 @@ private:
     bool time_kernels_ = false;
     HazardTracker hazards_;
     DescriptorPools descriptors_;
+    std::vector<std::shared_ptr<const Pipeline>> pipelines_; // that it was recorded with, which may be replaced meanwhile
     Timestamps timestamps_;
     std::optional<Error> error_;
     std::optional<std::vector<TracedCommand>> trace_;

@@ -62,6 +62,8 @@ void specializeLocalSize(Reflection& reflection, std::span<const SpecConstant> c
 
 } // namespace
 
+Pipeline::~Pipeline() { device_.vk().vkDestroyPipeline(device_.handle(), handle_, nullptr); }
+
 KernelLibrary::KernelLibrary(Device& device, std::span<const shaders::Module> modules, std::vector<SpecConstant> common)
     : device_(device), modules_(modules), common_(std::move(common)) {}
 
@@ -77,13 +79,19 @@ Result<const Kernel*> KernelLibrary::get(std::string_view name, std::span<const 
         const std::lock_guard lock(mutex_);
         if (const auto found = kernels_.find(key); found != kernels_.end()) return found->second.get();
     }
-    // Made outside the lock, so that several can be made at a time; of two threads with the same wish one throws its away.
-    auto made = make(name, spec);
-    if (!made) return made.error();
-    const std::lock_guard lock(mutex_);
-    const auto [place, inserted] = kernels_.try_emplace(std::move(key), std::move(*made));
-    if (!inserted) destroy(**made);
-    return place->second.get();
+    for (;;) {
+        const auto code = codeOf(name);
+        if (!code) return code.error();
+        // Made outside the lock, so that several can be made at a time; of two threads with the same wish one throws its away.
+        auto made = make(name, spec, *code);
+        if (!made) return made.error();
+        const std::lock_guard lock(mutex_);
+        const bool replaced_meanwhile = latestCode(name).words.data() != code->words.data();
+        const auto [place, inserted] =
+            replaced_meanwhile ? std::pair(kernels_.find(key), false) : kernels_.try_emplace(key, std::move(*made));
+        if (!inserted) destroy(**made);
+        if (place != kernels_.end()) return place->second.get();
+    }
 }
 
 Result<void> KernelLibrary::warm(std::span<const KernelRequest> requests) {
@@ -127,10 +135,8 @@ double KernelLibrary::creationMs() const {
     return creation_ms_;
 }
 
-Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::span<const uint32_t> spec) {
-    const auto module = std::ranges::find(modules_, name, &shaders::Module::name);
-    if (module == modules_.end()) return Error{ErrorCode::Internal, "no kernel is named \"" + std::string(name) + "\""};
-    auto reflection = reflect(module->words);
+Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::span<const uint32_t> spec, const Code& code) {
+    auto reflection = reflect(code.words);
     if (!reflection) return refused(name, reflection.error().message);
     auto kernel = std::make_unique<Kernel>();
     kernel->name = name;
@@ -140,10 +146,29 @@ Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::
     kernel->constants = constants;
     auto made = checkInterface(*kernel, device_.limits());
     if (made) made = makeLayouts(*kernel);
-    if (made) made = makePipeline(*kernel, module->words, constants);
-    if (made) return kernel;
+    if (made) {
+        auto pipeline = makePipeline(*kernel, code.words);
+        if (pipeline) {
+            kernel->pipeline = std::move(*pipeline);
+            return kernel;
+        }
+        made = pipeline.error();
+    }
     destroy(*kernel);
     return made.error();
+}
+
+KernelLibrary::Code KernelLibrary::latestCode(std::string_view name) const {
+    if (const auto replaced = replaced_.find(name); replaced != replaced_.end()) return {*replaced->second, replaced->second};
+    const auto module = std::ranges::find(modules_, name, &shaders::Module::name);
+    return module == modules_.end() ? Code{} : Code{module->words, nullptr};
+}
+
+Result<KernelLibrary::Code> KernelLibrary::codeOf(std::string_view name) const {
+    const std::lock_guard lock(mutex_);
+    Code code = latestCode(name);
+    if (code.words.empty()) return Error{ErrorCode::Internal, "no kernel is named \"" + std::string(name) + "\""};
+    return code;
 }
 
 // Those asked for by place, and those in common that the kernel declares and that were not asked for.
@@ -181,7 +206,7 @@ Result<void> KernelLibrary::makeLayouts(Kernel& kernel) const {
     return {};
 }
 
-Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const SpecConstant> spec) {
+Result<std::shared_ptr<const Pipeline>> KernelLibrary::makePipeline(const Kernel& kernel, std::span<const uint32_t> words) {
     const VolkDeviceTable& vk = device_.vk();
     const auto start = std::chrono::steady_clock::now();
     VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -191,10 +216,12 @@ Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_
     VkResult made = vk.vkCreateShaderModule(device_.handle(), &code, nullptr, &module);
     if (made != VK_SUCCESS) return vulkanError("module of kernel \"" + kernel.name + "\"", made);
 
+    const std::vector<SpecConstant>& spec = kernel.constants;
     std::vector<VkSpecializationMapEntry> entries;
     for (uint32_t i = 0; i < spec.size(); ++i)
         entries.push_back({spec[i].id, static_cast<uint32_t>(i * sizeof(SpecConstant) + offsetof(SpecConstant, value)), 4});
-    const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(), spec.size_bytes(), spec.data()};
+    const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(),
+                                         spec.size() * sizeof(SpecConstant), spec.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                   nullptr,
@@ -204,20 +231,20 @@ Result<void> KernelLibrary::makePipeline(Kernel& kernel, std::span<const uint32_
                   "main",
                   spec.empty() ? nullptr : &constants};
     info.layout = kernel.layout;
-    made = vk.vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &kernel.pipeline);
+    VkPipeline handle = VK_NULL_HANDLE;
+    made = vk.vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &handle);
     vk.vkDestroyShaderModule(device_.handle(), module, nullptr);
     if (made != VK_SUCCESS) return vulkanError("pipeline of kernel \"" + kernel.name + "\"", made);
 
-    device_.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(kernel.pipeline), kernel.name);
+    device_.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(handle), kernel.name);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     const std::lock_guard lock(mutex_);
     creation_ms_ += took.count();
-    return {};
+    return std::make_shared<const Pipeline>(device_, handle);
 }
 
 void KernelLibrary::destroy(const Kernel& kernel) const {
     const VolkDeviceTable& vk = device_.vk();
-    vk.vkDestroyPipeline(device_.handle(), kernel.pipeline, nullptr);
     vk.vkDestroyPipelineLayout(device_.handle(), kernel.layout, nullptr);
     vk.vkDestroyDescriptorSetLayout(device_.handle(), kernel.set_layout, nullptr);
 }

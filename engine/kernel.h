@@ -25,12 +25,26 @@ struct SpecConstant {
     uint32_t value = 0;
 };
 
+// Shared by the kernel and every recording that uses it: one that was replaced lives until the last of these is gone.
+class Pipeline {
+public:
+    Pipeline(Device& device, VkPipeline handle) : device_(device), handle_(handle) {}
+    ~Pipeline();
+    Pipeline(const Pipeline&) = delete;
+    Pipeline& operator=(const Pipeline&) = delete;
+    VkPipeline handle() const { return handle_; }
+
+private:
+    Device& device_;
+    VkPipeline handle_;
+};
+
 struct Kernel {
     std::string name;
     Reflection reflection; // local_size as it was specialized
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkPipeline pipeline = VK_NULL_HANDLE;
+    std::shared_ptr<const Pipeline> pipeline;
 
     std::vector<SpecConstant> constants; // that it was specialized with
 
@@ -40,6 +54,15 @@ struct Kernel {
 struct KernelRequest {
     std::string_view name;
     std::vector<uint32_t> spec; // spec[i] sets constant_id i
+};
+
+using KernelWords = std::shared_ptr<const std::vector<uint32_t>>;
+
+// Another version of a kernel with all that a library needs to run it; made by KernelLibrary::prepare.
+struct KernelReplacement {
+    std::string name;
+    KernelWords words;
+    std::map<std::vector<uint32_t>, std::shared_ptr<const Pipeline>> pipelines; // by what they are specialized with
 };
 
 class KernelLibrary {
@@ -60,6 +83,16 @@ public:
     // Makes many side by side, on all cores.
     Result<void> warm(std::span<const KernelRequest> requests);
 
+    // Another version of a kernel, in every specialization that was asked for so far; nothing changes yet. Safe from any
+    // thread. Errors: BadInput where its interface is another one (kernel_interface.h), Internal for no such kernel, Device.
+    Result<KernelReplacement> prepare(std::string_view name, KernelWords words);
+    // From now on these kernels are the other version, all of them or, after an error, none: pointers to them stay valid,
+    // recordings that exist go on with what they were recorded with. Not while anybody records with them. Errors: Device.
+    Result<void> adopt(std::span<KernelReplacement> replacements);
+    // Whether it was asked for, and with which constants.
+    bool has(std::string_view name) const;
+    std::vector<std::vector<SpecConstant>> specializationsOf(std::string_view name) const;
+
     std::span<const shaders::Module> modules() const { return modules_; }
     const std::vector<SpecConstant>& common() const { return common_; }
     uint32_t kernelCount() const;
@@ -68,10 +101,21 @@ public:
 
 private:
     using Key = std::pair<std::string, std::vector<uint32_t>>;
-    Result<std::unique_ptr<Kernel>> make(std::string_view name, std::span<const uint32_t> spec);
+    // The words of a kernel, those of a replacement for as long as they are looked at.
+    struct Code {
+        std::span<const uint32_t> words;
+        KernelWords keeper;
+    };
+    Result<std::unique_ptr<Kernel>> make(std::string_view name, std::span<const uint32_t> spec, const Code& code);
+    Result<Code> codeOf(std::string_view name) const;
+    Code latestCode(std::string_view name) const; // with the lock held; of no words for no such kernel
+    std::vector<std::pair<Key, const Kernel*>> kernelsNamed(std::string_view name) const;
+    Result<void> complete(KernelReplacement& replacement);
+    bool covers(const KernelReplacement& replacement) const; // with the lock held
+    void install(const KernelReplacement& replacement);      // likewise
     std::vector<SpecConstant> constantsOf(const Reflection& reflection, std::span<const uint32_t> spec) const;
     Result<void> makeLayouts(Kernel& kernel) const;
-    Result<void> makePipeline(Kernel& kernel, std::span<const uint32_t> words, std::span<const SpecConstant> spec);
+    Result<std::shared_ptr<const Pipeline>> makePipeline(const Kernel& kernel, std::span<const uint32_t> words);
     void destroy(const Kernel& kernel) const;
 
     Device& device_;
@@ -79,6 +123,7 @@ private:
     std::vector<SpecConstant> common_;
     mutable std::mutex mutex_;
     std::map<Key, std::unique_ptr<Kernel>> kernels_;
+    std::map<std::string, KernelWords, std::less<>> replaced_; // words in place of those of `modules_`
     double creation_ms_ = 0;
 };
 

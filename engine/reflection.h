@@ -12,6 +12,13 @@
 
 namespace engine {
 
+// A number, vector or matrix in a block, however deep in arrays and structs of it.
+struct ReflectedField {
+    std::string path;   // "bodies[].offset"
+    std::string holder; // the struct that it is a member of
+    std::string layout; // type and place in words: equal only where host and shader mean the same bytes
+};
+
 struct ReflectedBinding {
     uint32_t set = 0;
     uint32_t binding = 0;
@@ -19,6 +26,7 @@ struct ReflectedBinding {
     bool storage_buffer = false; // false: anything else
     bool readonly = false;
     bool writeonly = false;
+    std::vector<ReflectedField> fields; // of a block, in order
 };
 
 struct ReflectedMember {
@@ -37,8 +45,9 @@ enum class ShaderStage { Compute, Vertex, Fragment, Other };
 
 struct Reflection {
     ShaderStage stage = ShaderStage::Other;
-    std::vector<ReflectedBinding> bindings;                // by set and binding
-    uint32_t push_size = 0;                                // bytes up to the end of the last member
+    std::vector<ReflectedBinding> bindings; // by set and binding
+    uint32_t push_size = 0;                 // bytes up to the end of the last member
+    std::vector<ReflectedField> push_fields;
     std::array<uint32_t, 3> local_size = {1, 1, 1};        // where nothing is specialized
     std::array<std::optional<uint32_t>, 3> local_size_ids; // constant_ids that set it
     std::vector<uint32_t> spec_ids;                        // ascending

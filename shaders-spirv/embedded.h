@@ -10,6 +10,9 @@ namespace shaders {
 struct Module {
     std::string_view name;
     std::span<const uint32_t> words;
+    // Its row in the table, from which it can be made anew: the source, relative to the table, and "NAME=VALUE", with spaces
+    // between them.
+    std::string_view file, defines;
 };
 
 // Every row of kernels.cmake, in its order.

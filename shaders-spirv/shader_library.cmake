@@ -2,7 +2,7 @@
 # in a static library, where shaders::name() lists them.
 #
 # A kernel runs through glslangValidator (with a depfile, so that a touched include rebuilds exactly its users), spirv-opt
-# and spirv-val; the result stays in the build tree as spirv/NAME.spv.
+# and spirv-val; the result stays in the build tree as spirv/NAME.spv. engine/reload/glsl_compiler.cpp does the same at run time.
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
@@ -35,6 +35,8 @@ function(kernel file)
         COMMAND ${SPIRV_VAL} --target-env vulkan1.1 ${module}
         DEPENDS ${raw} COMMENT "spirv-opt ${name}" VERBATIM)
     set_property(GLOBAL APPEND PROPERTY ${shader_target}_names ${name})
+    string(JOIN " " flat_defines ${arg_DEFINES})
+    set_property(GLOBAL APPEND PROPERTY ${shader_target}_rows "\"${file}\", \"${flat_defines}\"")
     set_property(GLOBAL APPEND PROPERTY ${shader_target}_modules ${module})
 endfunction()
 
@@ -47,19 +49,20 @@ function(shader_library target)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${arg_TABLE})
     get_property(names GLOBAL PROPERTY ${target}_names)
     get_property(modules GLOBAL PROPERTY ${target}_modules)
+    get_property(sources GLOBAL PROPERTY ${target}_rows)
 
     # The assembler takes in the binaries as they are; the C++ file next to it names them.
     set(assembly "    .section .rodata\n")
     set(declarations "")
     set(rows "")
     set(index 0)
-    foreach(name module IN ZIP_LISTS names modules)
+    foreach(name module source IN ZIP_LISTS names modules sources)
         set(symbol ${target}_${index})
         string(APPEND assembly
             "    .balign 4\n    .globl ${symbol}_begin\n    .globl ${symbol}_end\n"
             "${symbol}_begin:\n    .incbin \"${module}\"\n${symbol}_end:\n")
         string(APPEND declarations "extern \"C\" const uint32_t ${symbol}_begin[], ${symbol}_end[];\n")
-        string(APPEND rows "        {\"${name}\", {${symbol}_begin, ${symbol}_end}},\n")
+        string(APPEND rows "        {\"${name}\", {${symbol}_begin, ${symbol}_end}, ${source}},\n")
         math(EXPR index "${index} + 1")
     endforeach()
     string(APPEND assembly "    .section .note.GNU-stack,\"\",%progbits\n")

@@ -18,6 +18,8 @@ rule(shaders-spirv/shared "(engine|modules|tools|tests)/" "shared headers stand 
 rule(shaders-spirv "(engine|modules|tools|tests)/" "kernels know only shared headers and lib")
 rule(engine "(modules|tools|tests)/" "the engine knows no module")
 rule(engine "shaders-spirv/shared/(fracture|fragment)" "the engine knows no fracture")
+rule(engine "(glslang|spirv-tools)/" "only the two that compile see a compiler" EXCEPT engine/reload/glsl_compiler.cpp
+    engine/reload/include_finder.h)
 rule(modules "(tools|tests)/" "modules know no program")
 rule(modules/brittle/mesh "(volk|vulkan)" "the mesh knows no Vulkan")
 rule(modules "assimp/" "only mesh/import sees assimp" EXCEPT modules/brittle/mesh/import.cpp)

@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(
   # compilers and build
   build-essential cmake ninja-build ccache pkg-config
-  glslang-tools spirv-tools spirv-headers
+  glslang-tools glslang-dev spirv-tools spirv-headers
   # Vulkan: headers, loader, a CPU device for machines without a GPU, layers for the tests
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
   # libraries

@@ -56,7 +56,10 @@ Result<std::unique_ptr<Drawing>> Drawing::create(engine::Device& device, engine:
     std::unique_ptr<Drawing> drawing(new Drawing(device, std::move(source)));
     if (auto made = drawing->make(contents); !made) return made.error();
     if (auto filled = drawing->fill(contents); !filled) return filled.error();
-    if (auto recorded = drawing->recordOnce(kernels); !recorded) return recorded.error();
+    const auto kernel = kernels.get("write_draws");
+    if (!kernel) return kernel.error();
+    drawing->kernel_ = *kernel;
+    if (auto recorded = drawing->recordAgain(); !recorded) return recorded.error();
     drawing->views_.generation = generation;
     return drawing;
 }
@@ -107,14 +110,13 @@ Result<void> Drawing::fill(const WorldContents& contents) {
     return upload.send(device_);
 }
 
-Result<void> Drawing::recordOnce(engine::KernelLibrary& kernels) {
-    const auto kernel = kernels.get("write_draws");
-    if (!kernel) return kernel.error();
-    kernel_ = *kernel;
-    recording_ = std::make_unique<Commands>(device_);
-    if (auto begun = recording_->begin(Commands::Reuse::ByOthers); !begun) return begun;
-    dispatch(*recording_);
-    return recording_->end();
+Result<void> Drawing::recordAgain() {
+    auto recording = std::make_unique<Commands>(device_);
+    if (auto begun = recording->begin(Commands::Reuse::ByOthers); !begun) return begun;
+    dispatch(*recording);
+    if (auto ended = recording->end(); !ended) return ended;
+    recording_ = std::move(recording);
+    return {};
 }
 
 void Drawing::dispatch(Commands& commands) const {

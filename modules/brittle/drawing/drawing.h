@@ -50,12 +50,13 @@ public:
     // first into a command buffer of another, as Commands::executeIn; the second submits and waits.
     void record(VkCommandBuffer commands, const Double3& origin) const;
     engine::Result<void> update(const Double3& origin) const;
+    // With its kernel as it is now; not before the device has finished with what was recorded.
+    engine::Result<void> recordAgain();
 
 private:
     Drawing(engine::Device& device, Source source) : device_(device), source_(std::move(source)) {}
     engine::Result<void> make(const WorldContents& contents);
     engine::Result<void> fill(const WorldContents& contents);
-    engine::Result<void> recordOnce(engine::KernelLibrary& kernels);
     void dispatch(engine::Commands& commands) const;
 
     engine::Device& device_;

@@ -50,17 +50,20 @@ public:
         return {};
     }
 
-    // Once for each of the two memories that take turns.
+    // Once for each of the two memories that take turns. What was recorded before stays where that fails.
     Result<void> record() {
-        by_others_[0].reset();
-        by_others_[1].reset();
-        submitted_[0] = submitted_[1] = false;
+        std::unique_ptr<engine::Commands> recorded[2];
         for (uint32_t parity = 0; parity < 2; parity++) {
-            commands_[parity] = std::make_unique<engine::Commands>(device_);
-            engine::Commands& commands = *commands_[parity];
+            recorded[parity] = std::make_unique<engine::Commands>(device_);
+            engine::Commands& commands = *recorded[parity];
             if (auto begun = commands.begin(engine::Commands::Reuse::Many); !begun) return begun;
             if (times_passes_) commands.timeKernels();
-            if (auto recorded = recordInto(commands, parity); !recorded) return recorded;
+            if (auto done = recordInto(commands, parity); !done) return done;
+        }
+        for (uint32_t parity = 0; parity < 2; parity++) {
+            commands_[parity] = std::move(recorded[parity]);
+            submitted_[parity] = false;
+            by_others_[parity].reset();
         }
         return {};
     }
@@ -237,12 +240,28 @@ public:
     }
 
     Result<std::vector<double>> measure(uint32_t steps) override {
-        times_passes_ = true;
+        const bool before = std::exchange(times_passes_, true);
         auto recorded = record();
         auto medians = recorded ? mediansOf(steps) : Result<std::vector<double>>(recorded.error());
-        times_passes_ = false;
+        times_passes_ = before;
         if (recorded = record(); !recorded) return recorded.error();
         return medians;
+    }
+
+    Result<void> timeKernels(bool on) override {
+        if (auto settled = settle(); !settled) return settled;
+        times_passes_ = on;
+        return record();
+    }
+
+    engine::KernelLibrary& kernels() override { return kernels_; }
+
+    Result<void> kernelsChanged() override {
+        const auto settled = settle();
+        if (auto recorded = record(); !recorded) return recorded;
+        if (drawing_)
+            if (auto recorded = drawing_->recordAgain(); !recorded) return recorded;
+        return settled;
     }
 
     uint32_t dispatches() const override { return commands_[0]->dispatchCount(); }

@@ -115,6 +115,16 @@ public:
     // of the plan, fills and copies left out.
     virtual engine::Result<std::vector<double>> measure(uint32_t steps) = 0;
 
+    // From the next step on every kernel is timed on its own, and timings() are by kernel instead of by stage; at the price of
+    // two timestamps a dispatch.
+    virtual engine::Result<void> timeKernels(bool on) = 0;
+
+    // The kernels it is stepped by, for whoever puts other versions in their place (KernelLibrary::adopt, engine/reload):
+    // between steps, followed by kernelsChanged, which records the steps to come anew. Nothing of the state is touched. After
+    // an error of Device the steps are those that were recorded before; other errors are those of step().
+    virtual engine::KernelLibrary& kernels() = 0;
+    virtual engine::Result<void> kernelsChanged() = 0;
+
     // All that the next step depends on, as bytes, to be restored into a world of the same contents, settings and budget. More
     // room for pairs, made since or before, is no obstacle. Which events the host has been told of is part of it. Errors of
     // restore: BadInput for a state of something else, Capacity, Device.
