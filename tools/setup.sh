@@ -10,6 +10,8 @@ packages=(
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
   # libraries
   libassimp-dev libcli11-dev libeigen3-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
+  # the window of shader_reload, which does without it
+  libglfw3-dev
   # films; only brittle simulate -o FILE.mp4 and its test ask for it
   ffmpeg
   # the tests of the page of brittle accuracy

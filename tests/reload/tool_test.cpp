@@ -1,0 +1,113 @@
+// The program shader_reload, from outside.
+#include "engine/reload/kernel_times.h"
+#include "modules/brittle/scene/library/builtin_scenes.h"
+#include "tests/module/breaking_scenes.h"
+#include "tests/reload/source_folder.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+using namespace reload_test;
+
+namespace {
+
+class ReloadTool : public SourceFolder {
+protected:
+    static support::Outcome run(const std::vector<std::string>& arguments) {
+        return support::runProgram("shader_reload", arguments);
+    }
+    static bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+    void copyKernels() const {
+        fs::copy(fs::path(BRITTLE_SOURCE_DIR) / "shaders-spirv", folder(), fs::copy_options::recursive);
+    }
+    const std::string kSound = "#version 450\nlayout(local_size_x = 64) in;\nvoid main() {}\n";
+};
+
+std::string hashAfter(const std::string& scene, uint32_t steps) {
+    const auto world = breaking_scenes::worldOf(*brittle::makeBuiltinScene(scene));
+    EXPECT_TRUE(world->step(steps));
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(*world->hash()));
+    return digits;
+}
+
+} // namespace
+
+TEST_F(ReloadTool, ChecksAFolderOnceAndEndsWithACode) {
+    write("one.comp", kSound);
+    write("below/two.comp", kSound);
+    const support::Outcome sound = run({"--once", folder().string()});
+    EXPECT_EQ(sound.exit_code, 0) << sound.err;
+    EXPECT_TRUE(has(sound.out, "2 kernels")) << sound.out;
+    EXPECT_TRUE(has(sound.out, "2 sound, 0 refused")) << sound.out;
+    write("below/two.comp", kSound + "uint f() { return missing; }\n");
+    const support::Outcome wrong = run({"--once", folder().string()});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_TRUE(wrong.err.starts_with(path("below/two.comp") + ":4:19: error: 'missing'")) << wrong.err;
+    EXPECT_TRUE(has(wrong.out, "1 sound, 1 refused")) << wrong.out;
+}
+
+TEST_F(ReloadTool, ComparesInterfacesWithThoseThatWereBuilt) {
+    fs::create_directories(folder() / "primitives");
+    const fs::path root = fs::path(BRITTLE_SOURCE_DIR) / "shaders-spirv";
+    write("primitives/clear_words.comp", replaced(readFile(root / "primitives/clear_words.comp"), "WRITES(0", "UPDATES(0"));
+    const support::Outcome outcome = run({"--once", "-I", root.string(), folder().string()});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(has(outcome.err, "kernel \"clear_words\": binding 0")) << outcome.err;
+}
+
+TEST_F(ReloadTool, ExplainsBadUsage) {
+    for (const auto& arguments : std::vector<std::vector<std::string>>{{},
+                                                                       {path("nowhere")},
+                                                                       {"--once", path("nowhere")},
+                                                                       {"--once", "--window", folder().string()},
+                                                                       {"--frobnicate", "."}}) {
+        const support::Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.out << outcome.err;
+        EXPECT_TRUE(outcome.err.starts_with("shader_reload: ")) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+    }
+}
+
+TEST_F(ReloadTool, StepsASceneOnWhileItIsEdited) {
+    copyKernels();
+    const std::jthread editor([this] {
+        std::this_thread::sleep_for(std::chrono::seconds(3));
+        const std::string name = "solver/end_step.comp", source = read(name);
+        write(name, replaced(source, "uint b = flatIndex();", "uint b = ;"));
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        write(name,
+              replaced(source, "(bodies[b].sector.w & BODY_HANGS) != 0", "(bodies[b].sector.w & BODY_HANGS) == BODY_HANGS"));
+    });
+    const support::Outcome outcome = run({"--scene", "stack_10", "--steps", "600", folder().string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "reloaded end_step")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "kept the last good end_step")) << outcome.out;
+    EXPECT_TRUE(has(outcome.err, path("solver/end_step.comp") + ":")) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "end_step: ")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "600 steps, state " + hashAfter("stack_10", 600))) << outcome.out;
+}
+
+TEST(KernelTimes, AreMediansBeforeAndAfter) {
+    engine::KernelTimes times(3);
+    const auto frame = [&](double ms) {
+        const engine::Timing timing[] = {{"cut", ms, 1}, {"other", 1, 1}};
+        times.add(timing);
+    };
+    for (const double ms : {9, 4, 5, 6}) // the first is forgotten
+        frame(ms);
+    const std::string names[] = {"cut"};
+    times.reloaded(names);
+    frame(2);
+    frame(8);
+    EXPECT_TRUE(times.takeChanges().empty());
+    frame(3);
+    const auto changes = times.takeChanges();
+    ASSERT_EQ(changes.size(), 1u);
+    EXPECT_EQ(changes[0].name, "cut");
+    EXPECT_EQ(changes[0].before_ms, 5);
+    EXPECT_EQ(changes[0].after_ms, 3);
+    EXPECT_TRUE(times.takeChanges().empty());
+}

@@ -1,0 +1,134 @@
+#include "tools/shader_reload/live_scene.h"
+
+#include "engine/reload/kernel_times.h"
+#include "engine/reload/shader_reloader.h"
+#include "tools/brittle/progress.h"
+#include "tools/brittle/scene_source.h"
+#include "tools/brittle/simulation.h"
+#include "tools/shader_reload/scene_window.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+namespace shader_reload {
+namespace {
+
+using engine::ReloadEvent;
+using engine::Result;
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t kTimedSteps = 60;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+class LiveScene {
+public:
+    LiveScene(const Options& options, cli::StagedScene& staged, brittle::World& world, engine::ShaderReloader& reloader,
+              SceneWindow* window)
+        : options_(options), staged_(staged), world_(world), reloader_(reloader), window_(window) {}
+
+    Result<void> run() {
+        auto beginning = world_.save();
+        if (!beginning) return beginning.error();
+        beginning_ = std::move(*beginning);
+        const auto pace = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(staged_.scene.step.dt));
+        for (Clock::time_point next = Clock::now(); goesOn(); next = std::max(next + pace, Clock::now() - pace)) {
+            if (auto followed = follow(); !followed) return followed;
+            if (auto stepped = step(); !stepped) return stepped;
+            if (window_ != nullptr)
+                if (auto shown = window_->show(); !shown) return shown;
+            std::this_thread::sleep_until(next);
+        }
+        return tellEnd();
+    }
+
+private:
+    bool goesOn() const {
+        if (interrupted != 0 || (window_ != nullptr && window_->isClosed())) return false;
+        return !options_.steps || steps_ < *options_.steps;
+    }
+
+    Result<void> follow() {
+        const std::vector<ReloadEvent> events = reloader_.swap();
+        if (engine::somethingRuns(events))
+            if (auto recorded = world_.kernelsChanged(); !recorded) return recorded;
+        for (const ReloadEvent& event : events)
+            tell(event);
+        return {};
+    }
+
+    void tell(const ReloadEvent& event) {
+        if (!event.diagnostics.empty()) std::fprintf(stderr, "%s\n", textOf(event.diagnostics).c_str());
+        std::printf("%s\n", textOf(event).c_str());
+        std::fflush(stdout);
+        if (event.kind == ReloadEvent::Kind::Reloaded) times_.reloaded(event.kernels);
+    }
+
+    Result<void> step() {
+        if (!options_.steps && steps_ > 0 && steps_ % std::max(staged_.scene.step.steps, 1u) == 0)
+            if (auto restored = world_.restore(beginning_); !restored) return restored;
+        if (auto stepped = world_.step(); !stepped) return stepped;
+        ++steps_;
+        const auto timings = world_.timings();
+        if (!timings) return timings.error();
+        times_.add(*timings);
+        for (const engine::KernelTimeChange& change : times_.takeChanges())
+            std::printf("  %s: %.1f us a step before, %.1f us after (medians of %zu steps)\n", change.name.c_str(),
+                        1000 * change.before_ms, 1000 * change.after_ms, kTimedSteps);
+        std::fflush(stdout);
+        return {};
+    }
+
+    Result<void> tellEnd() {
+        const auto hash = world_.hash();
+        if (!hash) return hash.error();
+        std::printf("%u steps, state %s\n", steps_, cli::hexOf(*hash).c_str());
+        return {};
+    }
+
+    const Options& options_;
+    cli::StagedScene& staged_;
+    brittle::World& world_;
+    engine::ShaderReloader& reloader_;
+    SceneWindow* window_;
+    engine::KernelTimes times_{kTimedSteps};
+    std::vector<std::byte> beginning_;
+    uint32_t steps_ = 0;
+};
+
+void stopWhenInterrupted() {
+    for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal, [](int) { interrupted = 1; });
+}
+
+} // namespace
+
+Result<void> runLive(const Options& options) {
+    auto scene = cli::readSceneOrBuiltin(options.scene);
+    if (!scene) return scene.error();
+    const auto device = engine::Device::create({.select = options.device});
+    if (!device) return device.error();
+    auto staged = cli::stageScene(**device, std::move(*scene), {options.scene, 0, options.window});
+    if (!staged) return staged.error();
+    const auto world = cli::worldOf(**device, *staged, 0);
+    if (!world) return world.error();
+    if (auto timed = (*world)->timeKernels(true); !timed) return timed;
+    auto window =
+        options.window ? SceneWindow::open(**device, *staged, **world) : Result<std::unique_ptr<SceneWindow>>(nullptr);
+    if (!window) return window.error();
+    const auto reloader =
+        engine::ShaderReloader::start(**device, {.folder = options.folder, .include_folders = options.include_folders});
+    if (!reloader) return reloader.error();
+    (*reloader)->attach((*world)->kernels());
+    cli::clearProgress();
+    std::printf("%s on %s by %u kernels; watching %s%s\n", staged->scene.name.c_str(), (*device)->name().c_str(),
+                (*world)->kernels().kernelCount(), options.folder.c_str(), options.steps ? "" : "; Ctrl+C ends");
+    std::fflush(stdout);
+    stopWhenInterrupted();
+    return LiveScene(options, *staged, **world, **reloader, window->get()).run();
+}
+
+} // namespace shader_reload

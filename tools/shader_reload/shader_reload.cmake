@@ -1,0 +1,11 @@
+# shader_reload: a scene that runs while its kernels are edited. With a window where GLFW is there.
+find_package(glfw3 QUIET)
+set(reload_dir ${CMAKE_CURRENT_LIST_DIR})
+add_executable(shader_reload ${reload_dir}/main.cpp ${reload_dir}/check_once.cpp ${reload_dir}/live_scene.cpp)
+target_link_libraries(shader_reload PRIVATE brittle_scenes_cli engine_reload)
+if(TARGET glfw)
+    target_sources(shader_reload PRIVATE ${reload_dir}/scene_window_glfw.cpp)
+    target_link_libraries(shader_reload PRIVATE glfw)
+else()
+    target_sources(shader_reload PRIVATE ${reload_dir}/scene_window_none.cpp)
+endif()
