@@ -21,6 +21,8 @@ rule(engine "shaders-spirv/shared/(fracture|fragment)" "the engine knows no frac
 rule(engine "(glslang|spirv-tools)/" "only the two that compile see a compiler" EXCEPT engine/reload/glsl_compiler.cpp
     engine/reload/include_finder.h)
 rule(modules "(tools|tests)/" "modules know no program")
+rule(modules "engine/(module|frame)" "only register_module meets the engine's registry"
+    EXCEPT modules/brittle/register_module.h modules/brittle/register_module.cpp)
 rule(modules/brittle/mesh "(volk|vulkan)" "the mesh knows no Vulkan")
 rule(modules "assimp/" "only mesh/import sees assimp" EXCEPT modules/brittle/mesh/import.cpp)
 rule(modules "toml\\+\\+/" "only read_scene sees toml++" EXCEPT modules/brittle/scene/read_scene.cpp)
