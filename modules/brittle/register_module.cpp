@@ -1,6 +1,7 @@
 #include "modules/brittle/register_module.h"
 
 #include "engine/module_entry.h"
+#include "modules/brittle/brittle.h"
 
 #include <cmath>
 
@@ -11,6 +12,11 @@ using engine::Result;
 
 constexpr double kOnStep = 1e-6; // of a step: times are sums
 
+std::string version() {
+    return std::to_string(BRITTLE_VERSION_MAJOR) + "." + std::to_string(BRITTLE_VERSION_MINOR) + "." +
+           std::to_string(BRITTLE_VERSION_PATCH);
+}
+
 struct SteppedWorld {
     std::unique_ptr<World> world;
     double dt = 0;  // s
@@ -19,7 +25,7 @@ struct SteppedWorld {
 
 class BrittleModule : public engine::Module, public Worlds {
 public:
-    engine::ModuleInfo info() const override { return {"brittle", "0.1.0"}; }
+    engine::ModuleInfo info() const override { return {"brittle", version()}; }
     std::span<const shaders::Module> kernels() const override { return shaders::all(); }
     void* service(std::string_view name) override { return name == kWorldsService ? static_cast<Worlds*>(this) : nullptr; }
 

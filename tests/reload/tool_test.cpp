@@ -71,6 +71,14 @@ TEST_F(ReloadTool, ExplainsBadUsage) {
     }
 }
 
+TEST_F(ReloadTool, SaysThatThereIsNoScreenForAWindow) {
+    copyKernels();
+    const support::Outcome outcome =
+        support::runProgram("shader_reload", {"--window", folder().string()}, {"DISPLAY=", "WAYLAND_DISPLAY="});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(has(outcome.err, "window")) << outcome.err;
+}
+
 TEST_F(ReloadTool, StepsASceneOnWhileItIsEdited) {
     copyKernels();
     const std::jthread editor([this] {
