@@ -5,8 +5,10 @@ include(CMakePackageConfigHelpers)
 
 file(GLOB abi_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/modules/brittle/abi/*.cpp)
 set(exports ${PROJECT_SOURCE_DIR}/modules/brittle/abi/exports.map)
-add_library(brittle_library SHARED ${abi_sources})
-target_link_libraries(brittle_library PRIVATE brittle_module Eigen3::Eigen)
+add_library(brittle_abi OBJECT ${abi_sources}) # of this library, and of plugins that have all of Brittle in them
+target_link_libraries(brittle_abi PUBLIC brittle_module Eigen3::Eigen)
+add_library(brittle_library SHARED)
+target_link_libraries(brittle_library PRIVATE brittle_abi)
 target_include_directories(brittle_library INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/modules/brittle> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 # Of what the module links for its programs, the library keeps what it uses.

@@ -1,0 +1,197 @@
+#include "modules/brittle/godot/simulation/running_world.h"
+
+namespace brittle_godot {
+namespace {
+
+BrittleMeshDef defOf(const MeshPlan& plan) {
+    const Triangles& t = plan.triangles;
+    BrittleMeshDef def = brittleDefaultMeshDef();
+    def.vertex_count = static_cast<uint32_t>(t.vertexCount());
+    def.positions = t.positions.data();
+    def.normals = t.normals.empty() ? nullptr : t.normals.data();
+    def.uvs = t.uvs.empty() ? nullptr : t.uvs.data();
+    def.index_count = static_cast<uint32_t>(t.indices.size());
+    def.indices = t.indices.data();
+    def.is_open = plan.is_open ? 1 : 0;
+    return def;
+}
+
+BrittleColliderDef colliderOf(const BrittleBodyDef& body) {
+    BrittleColliderDef def = brittleDefaultColliderDef();
+    def.shape = body.shape;
+    def.position = body.position;
+    def.rotation = body.rotation;
+    def.friction = body.friction;
+    def.restitution = body.restitution;
+    return def;
+}
+
+} // namespace
+
+RunningWorld::RunningWorld(std::shared_ptr<Session> session, const WorldPlan& plan) : session_(std::move(session)) {
+    hears_ = (plan.def.effects & BRITTLE_EFFECT_EVENTS) != 0;
+    session_->must(brittleCreateWorld(session_->context(), &plan.def, &world_));
+    try {
+        fill(plan);
+        session_->must(brittleStartWorld(session_->context(), world_));
+    } catch (...) {
+        brittleDestroyWorld(session_->context(), world_);
+        throw;
+    }
+}
+
+RunningWorld::~RunningWorld() { brittleDestroyWorld(session_->context(), world_); }
+
+// Meshes and materials are needed until the bodies have been added.
+void RunningWorld::fill(const WorldPlan& plan) {
+    BrittleContext* context = session_->context();
+    std::vector<BrittleMesh> meshes;
+    std::vector<BrittleMaterial> materials;
+    const auto release = [&] {
+        for (const BrittleMesh mesh : meshes)
+            brittleDestroyMesh(context, mesh);
+        for (const BrittleMaterial material : materials)
+            brittleDestroyMaterial(context, material);
+    };
+    try {
+        for (const MaterialPlan& material : plan.materials) {
+            BrittleMaterialDef def = material.def;
+            def.like = material.like.c_str();
+            session_->must(brittleCreateMaterial(context, &def, &materials.emplace_back()));
+        }
+        meshes.resize(plan.meshes.size());
+        for (const BodyPlan& body : plan.bodies) {
+            if (body.mesh != kNone && meshes[body.mesh].id == 0) {
+                const BrittleMeshDef def = defOf(plan.meshes[body.mesh]);
+                if (brittleCreateMesh(context, &def, &meshes[body.mesh]) != BRITTLE_OK)
+                    throw Failure(body.who + ": " + brittleLastError(context));
+            }
+            add(body, meshes, materials);
+        }
+    } catch (...) {
+        release();
+        throw;
+    }
+    release();
+}
+
+void RunningWorld::add(const BodyPlan& plan, const std::vector<BrittleMesh>& meshes,
+                       const std::vector<BrittleMaterial>& materials) {
+    BrittleBodyDef def = plan.def;
+    if (plan.mesh != kNone) def.shape.mesh = meshes[plan.mesh];
+    if (plan.material != kNone) def.material = materials[plan.material];
+    def.shape.points = plan.hull.data();
+    def.shape.point_count = static_cast<uint32_t>(plan.hull.size());
+    const BrittleColliderDef collider = colliderOf(def);
+    BrittleBody body = {0};
+    const BrittleResult result = plan.is_collider ? brittleAddCollider(session_->context(), world_, &collider, &body)
+                                                  : brittleAddBody(session_->context(), world_, &def, &body);
+    if (result != BRITTLE_OK) throw Failure(plan.who + ": " + brittleLastError(session_->context()));
+    ids_.push_back(body.id);
+}
+
+// BAD_VALUE: a body that outgrew its numbers was stopped, and the step was made.
+Report RunningWorld::step() {
+    const BrittleResult result = brittleStep(session_->context(), world_, 1);
+    const std::string trouble = result == BRITTLE_OK ? "" : brittleLastError(session_->context());
+    const bool is_made = result == BRITTLE_OK || result == BRITTLE_BAD_VALUE;
+    Report report = is_made ? told() : Report();
+    if (is_made)
+        report.warning = trouble;
+    else
+        report.failure = trouble;
+    return report;
+}
+
+Report RunningWorld::look() { return told(); }
+
+Report RunningWorld::told() {
+    Report report;
+    try {
+        report.breaks = breaks();
+        report.bodies = bodies();
+        report.surfaces = newSurfaces(report.bodies);
+    } catch (const Failure& failure) {
+        report = {};
+        report.failure = failure.what();
+    }
+    return report;
+}
+
+std::vector<BrittleBodyState> RunningWorld::bodies() {
+    std::vector<BrittleBodyState> states(ids_.size() + known_fragments_.size());
+    uint32_t count = 0;
+    BrittleResult result = BRITTLE_BUFFER_TOO_SMALL;
+    while (result == BRITTLE_BUFFER_TOO_SMALL) {
+        result = brittleGetBodies(session_->context(), world_, states.data(), static_cast<uint32_t>(states.size()), &count);
+        states.resize(count);
+    }
+    session_->must(result);
+    return states;
+}
+
+std::vector<BrittleBreak> RunningWorld::breaks() {
+    constexpr uint32_t kAtATime = 64;
+    std::vector<BrittleBreak> all;
+    uint32_t told = hears_ ? kAtATime : 0;
+    while (told == kAtATime) {
+        const size_t before = all.size();
+        all.resize(before + kAtATime);
+        session_->must(brittleGetBreaks(session_->context(), world_, all.data() + before, kAtATime, &told));
+        all.resize(before + told);
+    }
+    return all;
+}
+
+std::vector<FragmentSurface> RunningWorld::newSurfaces(const std::vector<BrittleBodyState>& states) {
+    std::vector<FragmentSurface> surfaces;
+    std::unordered_set<uint64_t> there;
+    for (const BrittleBodyState& state : states) {
+        if (state.is_fragment == 0) continue;
+        there.insert(state.body.id);
+        if (!known_fragments_.contains(state.body.id)) surfaces.push_back(surfaceOf(state.body));
+    }
+    known_fragments_ = std::move(there);
+    return surfaces;
+}
+
+FragmentSurface RunningWorld::surfaceOf(BrittleBody fragment) {
+    constexpr uint32_t kUsual = 3000;
+    FragmentSurface surface;
+    surface.id = fragment.id;
+    surface.vertices.resize(kUsual);
+    uint32_t count = kUsual;
+    BrittleResult result = BRITTLE_BUFFER_TOO_SMALL;
+    while (result == BRITTLE_BUFFER_TOO_SMALL) {
+        surface.vertices.resize(count);
+        result =
+            brittleGetSurface(session_->context(), world_, fragment, surface.vertices.data(), count, &count, &surface.outer);
+    }
+    session_->must(result);
+    surface.vertices.resize(count);
+    return surface;
+}
+
+void RunningWorld::damage(const BrittleVec3& point, double radius, double energy) {
+    session_->must(brittleDamage(session_->context(), world_, point, radius, energy));
+}
+
+std::vector<uint8_t> RunningWorld::save() {
+    size_t size = 0;
+    session_->must(brittleSaveState(session_->context(), world_, nullptr, 0, &size));
+    std::vector<uint8_t> bytes(size);
+    session_->must(brittleSaveState(session_->context(), world_, bytes.data(), bytes.size(), &size));
+    return bytes;
+}
+
+void RunningWorld::restore(const std::vector<uint8_t>& bytes) {
+    session_->must(brittleRestoreState(session_->context(), world_, bytes.data(), bytes.size()));
+}
+
+uint64_t RunningWorld::hash() {
+    uint64_t hash = 0;
+    session_->must(brittleHashState(session_->context(), world_, &hash));
+    return hash;
+}
+
+} // namespace brittle_godot
