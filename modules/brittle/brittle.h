@@ -547,6 +547,13 @@ BRITTLE_API BrittleResult brittleNumberOf(BrittleContext* context, BrittleWorld 
  * may be NULL where capacity is 0. */
 BRITTLE_API BrittleResult brittleGetSurface(BrittleContext* context, BrittleWorld world, BrittleBody body,
                                             BrittleVertex* vertices, uint32_t capacity, uint32_t* count, uint32_t* outer);
+/* [queue] Those of several, in one reading of the device, as after a break: the vertices of all, in the order of `bodies`, of
+ * body k counts[k] with outers[k] of its own surface first; *total of them. `counts` and `outers` have room for `body_count`
+ * numbers, and are written, as *total is, where the vertices are too many for `capacity`: BUFFER_TOO_SMALL. The lists may be NULL
+ * where body_count is 0. Errors: those of brittleGetSurface of any of them, and nothing is written then. */
+BRITTLE_API BrittleResult brittleGetSurfaces(BrittleContext* context, BrittleWorld world, const BrittleBody* bodies,
+                                             uint32_t body_count, BrittleVertex* vertices, uint32_t capacity, uint32_t* total,
+                                             uint32_t* counts, uint32_t* outers);
 
 /* ---- State
  * ---------------------------------------------------------------------------------------------------------------------- */

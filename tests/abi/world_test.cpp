@@ -299,6 +299,50 @@ TEST(AbiWorld, TellsOfWhatWasHitAndDidNotBreak) {
     EXPECT_EQ(counts.impacts_lost, 0u);
 }
 
+// Of one body and of all of them, with the ground among them.
+TEST(AbiWorld, GivesSeveralSurfacesAsItGivesEach) {
+    const Hosting host;
+    const Scene scene = makeScene(host, {glassCube(host, 1)});
+    MUST(host, brittleStep(host, scene.world, 40));
+    std::vector<BrittleBody> bodies;
+    std::vector<std::byte> each;
+    std::vector<uint32_t> counts, outers;
+    for (const BrittleBodyState& s : bodiesOf(host, scene.world)) {
+        std::vector<BrittleVertex> v(5000);
+        bodies.push_back(s.body);
+        MUST(host,
+             brittleGetSurface(host, scene.world, s.body, v.data(), 5000, &counts.emplace_back(), &outers.emplace_back()));
+        const auto* bytes = reinterpret_cast<const std::byte*>(v.data());
+        each.insert(each.end(), bytes, bytes + counts.back() * sizeof v[0]);
+    }
+    ASSERT_GT(bodies.size(), 2u);
+    const auto number = static_cast<uint32_t>(bodies.size());
+    std::vector<uint32_t> counts_of_all(number), outers_of_all(number);
+    uint32_t total = 0;
+    EXPECT_EQ(brittleGetSurfaces(host, scene.world, bodies.data(), number, nullptr, 0, &total, counts_of_all.data(),
+                                 outers_of_all.data()),
+              BRITTLE_BUFFER_TOO_SMALL);
+    ASSERT_EQ(total * sizeof(BrittleVertex), each.size());
+    std::vector<BrittleVertex> all(total);
+    MUST(host, brittleGetSurfaces(host, scene.world, bodies.data(), number, all.data(), total, &total, counts_of_all.data(),
+                                  outers_of_all.data()));
+    EXPECT_EQ(counts_of_all, counts);
+    EXPECT_EQ(outers_of_all, outers);
+    EXPECT_EQ(std::memcmp(all.data(), each.data(), each.size()), 0);
+    MUST(host, brittleGetSurfaces(host, scene.world, nullptr, 0, nullptr, 0, &total, nullptr, nullptr));
+    EXPECT_EQ(total, 0u);
+    EXPECT_EQ(brittleGetSurfaces(host, scene.world, bodies.data(), number, all.data(), 1, &total, nullptr, outers.data()),
+              BRITTLE_NULL_ARGUMENT);
+    bodies[1] = scene.bodies[0];
+    EXPECT_EQ(
+        brittleGetSurfaces(host, scene.world, bodies.data(), number, all.data(), total, &total, counts.data(), outers.data()),
+        BRITTLE_STALE_HANDLE);
+    bodies[1].id ^= 1ull << 50;
+    EXPECT_EQ(
+        brittleGetSurfaces(host, scene.world, bodies.data(), number, all.data(), total, &total, counts.data(), outers.data()),
+        BRITTLE_WRONG_HANDLE);
+}
+
 TEST(AbiWorld, GoesOnFromASavedStateBitForBit) {
     const Hosting host;
     const Scene scene = makeScene(host, {glassCube(host, 1)});

@@ -190,7 +190,9 @@ void Player::ask(Input& in) {
     counts.struct_size = in.byte() < 8 ? in.count() : static_cast<uint32_t>(sizeof counts);
     uint32_t count = 0, outer = 0;
     uint64_t hash = 0;
-    switch (in.byte() % 9) {
+    const BrittleBody two[] = {body, pick(in, bodies)};
+    uint32_t of_two[2] = {}, outer_of_two[2] = {};
+    switch (in.byte() % 10) {
     case 0: return check(brittleGetBodies(context, world, states, in.byte() % 5u, maybe(in, count)), context);
     case 1: return check(brittleGetBody(context, world, body, maybe(in, states[0])), context);
     case 2: return check(brittleGetBreaks(context, world, breaks, in.byte() % 5u, maybe(in, count)), context);
@@ -199,6 +201,10 @@ void Player::ask(Input& in) {
     case 5: return check(brittleNumberOf(context, world, body, maybe(in, count)), context);
     case 6: return check(brittleUpdateDraws(context, world, in.vector()), context);
     case 7: return check(brittleGetImpacts(context, world, impacts, in.byte() % 5u, maybe(in, count)), context);
+    case 8:
+        return check(brittleGetSurfaces(context, world, two, in.byte() % 3u, vertices, in.byte() % 65u, maybe(in, count),
+                                        maybe(in, of_two[0]), maybe(in, outer_of_two[0])),
+                     context);
     default:
         return check(brittleGetSurface(context, world, body, vertices, in.byte() % 65u, maybe(in, count), maybe(in, outer)),
                      context);

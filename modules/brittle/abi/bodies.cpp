@@ -3,6 +3,7 @@
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
+#include <span>
 #include <unordered_map>
 
 namespace {
@@ -157,12 +158,33 @@ void needEvents(HostedWorld& w, Told* room, const char* what, uint32_t capacity)
         throw Refusal(BRITTLE_BAD_VALUE, "the world has not the effect BRITTLE_EFFECT_EVENTS");
 }
 
-brittle::SurfaceMesh surfaceIn(HostedWorld& world, const Inhabitants& inhabitants, const Named& named) {
-    if (const BodyFragment* fragment = inhabitants.fragmentIn(named.slot)) {
-        auto surfaces = orRefuse(world.running().surfacesOf({fragment, 1}));
-        return std::move(surfaces[0]);
-    }
-    return world.surfaces.meshes[world.surfaces.bodies[named.slot].mesh];
+// Of fragments all at once, since the device is asked for them.
+std::vector<brittle::SurfaceMesh> surfacesIn(HostedWorld& world, const Inhabitants& inhabitants,
+                                             const std::vector<Named>& named) {
+    std::vector<BodyFragment> fragments;
+    for (const Named& name : named)
+        if (const BodyFragment* fragment = inhabitants.fragmentIn(name.slot)) fragments.push_back(*fragment);
+    std::vector<brittle::SurfaceMesh> of_fragments, all;
+    if (!fragments.empty()) of_fragments = orRefuse(world.running().surfacesOf(fragments));
+    size_t next = 0;
+    for (const Named& name : named)
+        all.push_back(inhabitants.fragmentIn(name.slot) != nullptr
+                          ? std::move(of_fragments[next++])
+                          : world.surfaces.meshes[world.surfaces.bodies[name.slot].mesh]);
+    return all;
+}
+
+// Of bodies that are there, in a world that has surfaces.
+std::vector<brittle::SurfaceMesh> surfacesOf(HostedWorld& world, std::span<const BrittleBody> bodies) {
+    static_cast<void>(world.running());
+    std::vector<Named> named;
+    for (const BrittleBody body : bodies)
+        named.push_back(world.named(body));
+    if (!world.has_surfaces) throw Refusal(BRITTLE_BAD_VALUE, "the world was made with has_surfaces = 0");
+    const Inhabitants inhabitants(world);
+    for (const Named& name : named)
+        static_cast<void>(inhabitants.one(name));
+    return surfacesIn(world, inhabitants, named);
 }
 
 std::vector<BrittleVertex> verticesOf(const brittle::SurfaceMesh& surface) {
@@ -244,13 +266,31 @@ BrittleResult brittleGetSurface(BrittleContext* context, BrittleWorld world, Bri
     return bounded(context, [&](BrittleContext& c) {
         HostedWorld& w = c.worlds.at(world.id);
         uint32_t &all = needed(count, "count"), &own = needed(outer, "outer");
-        static_cast<void>(w.running());
-        const Named named = w.named(body);
-        if (!w.has_surfaces) throw Refusal(BRITTLE_BAD_VALUE, "the world was made with has_surfaces = 0");
-        const Inhabitants inhabitants(w);
-        static_cast<void>(inhabitants.one(named));
-        const brittle::SurfaceMesh surface = surfaceIn(w, inhabitants, named);
-        own = surface.outer_index_count;
-        handOver(verticesOf(surface), vertices, capacity, all);
+        const std::vector<brittle::SurfaceMesh> surfaces = surfacesOf(w, {&body, 1});
+        own = surfaces[0].outer_index_count;
+        handOver(verticesOf(surfaces[0]), vertices, capacity, all);
+    });
+}
+
+BrittleResult brittleGetSurfaces(BrittleContext* context, BrittleWorld world, const BrittleBody* bodies, uint32_t body_count,
+                                 BrittleVertex* vertices, uint32_t capacity, uint32_t* total, uint32_t* counts,
+                                 uint32_t* outers) {
+    return bounded(context, [&](BrittleContext& c) {
+        HostedWorld& w = c.worlds.at(world.id);
+        uint32_t& all = needed(total, "total");
+        if (body_count > 0) {
+            needed(bodies, "bodies");
+            needed(counts, "counts");
+            needed(outers, "outers");
+        }
+        const std::vector<brittle::SurfaceMesh> surfaces = surfacesOf(w, {bodies, body_count});
+        std::vector<BrittleVertex> joined;
+        for (uint32_t k = 0; k < body_count; ++k) {
+            const std::vector<BrittleVertex> one = verticesOf(surfaces[k]);
+            counts[k] = static_cast<uint32_t>(one.size());
+            outers[k] = surfaces[k].outer_index_count;
+            joined.insert(joined.end(), one.begin(), one.end());
+        }
+        handOver(joined, vertices, capacity, all);
     });
 }
