@@ -1,4 +1,4 @@
-# What libbrittle.so exports is the list in symbols.txt, and nothing else: cmake -DLIBRARY=... -DSYMBOLS=... -P symbols_test.cmake
+# What a shared library exports is the list in a file, and nothing else: cmake -DLIBRARY=... -DSYMBOLS=... -P symbols_test.cmake
 # A symbol that is to come is added to the list; one that is to go is an ABI break, and needs another SOVERSION.
 cmake_policy(VERSION 3.25)
 find_program(NM nm REQUIRED)

@@ -89,6 +89,7 @@ void WorldNode::stop() {
 }
 
 bool WorldNode::restart() {
+    const auto kept_for_the_next = session_;
     for (const Link& link : links_)
         if (link.node != nullptr && link.copy == 0) link.node->returnToStart();
     stop();

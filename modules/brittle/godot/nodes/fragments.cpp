@@ -39,6 +39,7 @@ void Fragments::add(const FragmentSurface& surface, size_t link, const BodyNode&
     const Value node = origin.self();
     const Value scenario = node.call("get_world_3d").call("get_scenario");
     fragment.instance = server_.call("instance_create2", {fragment.mesh.call("get_rid"), scenario});
+    if (fragment.instance.isNull()) return; // and that has been told
     server_.call("instance_set_layer_mask", {fragment.instance, node.call("get_layer_mask")});
     server_.call("instance_geometry_set_cast_shadows_setting", {fragment.instance, node.call("get_cast_shadows_setting")});
     server_.call("instance_set_visible", {fragment.instance, is_visible_});

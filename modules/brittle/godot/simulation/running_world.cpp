@@ -1,5 +1,7 @@
 #include "modules/brittle/godot/simulation/running_world.h"
 
+#include <algorithm>
+
 namespace brittle_godot {
 namespace {
 
@@ -144,32 +146,37 @@ std::vector<BrittleBreak> RunningWorld::breaks() {
 }
 
 std::vector<FragmentSurface> RunningWorld::newSurfaces(const std::vector<BrittleBodyState>& states) {
-    std::vector<FragmentSurface> surfaces;
+    std::vector<BrittleBody> fresh;
     std::unordered_set<uint64_t> there;
     for (const BrittleBodyState& state : states) {
         if (state.is_fragment == 0) continue;
         there.insert(state.body.id);
-        if (!known_fragments_.contains(state.body.id)) surfaces.push_back(surfaceOf(state.body));
+        if (!known_fragments_.contains(state.body.id)) fresh.push_back(state.body);
     }
     known_fragments_ = std::move(there);
-    return surfaces;
+    return fresh.empty() ? std::vector<FragmentSurface>() : surfacesOf(fresh);
 }
 
-FragmentSurface RunningWorld::surfaceOf(BrittleBody fragment) {
-    constexpr uint32_t kUsual = 3000;
-    FragmentSurface surface;
-    surface.id = fragment.id;
-    surface.vertices.resize(kUsual);
-    uint32_t count = kUsual;
+std::vector<FragmentSurface> RunningWorld::surfacesOf(const std::vector<BrittleBody>& fragments) {
+    constexpr size_t kUsual = 600; // vertices of a fragment: a second reading is rare
+    const auto number = static_cast<uint32_t>(fragments.size());
+    std::vector<BrittleVertex> vertices(kUsual * number);
+    std::vector<uint32_t> counts(number), outers(number);
+    uint32_t total = 0;
     BrittleResult result = BRITTLE_BUFFER_TOO_SMALL;
     while (result == BRITTLE_BUFFER_TOO_SMALL) {
-        surface.vertices.resize(count);
-        result =
-            brittleGetSurface(session_->context(), world_, fragment, surface.vertices.data(), count, &count, &surface.outer);
+        vertices.resize(std::max<size_t>(vertices.size(), total));
+        result = brittleGetSurfaces(session_->context(), world_, fragments.data(), number, vertices.data(),
+                                    static_cast<uint32_t>(vertices.size()), &total, counts.data(), outers.data());
     }
     session_->must(result);
-    surface.vertices.resize(count);
-    return surface;
+    std::vector<FragmentSurface> surfaces;
+    auto next = vertices.begin();
+    for (uint32_t k = 0; k < number; ++k) {
+        surfaces.push_back({fragments[k].id, {next, next + counts[k]}, outers[k]});
+        next += counts[k];
+    }
+    return surfaces;
 }
 
 void RunningWorld::damage(const BrittleVec3& point, double radius, double energy) {

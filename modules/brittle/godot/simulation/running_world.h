@@ -47,7 +47,7 @@ private:
     std::vector<BrittleBodyState> bodies();
     std::vector<BrittleBreak> breaks();
     std::vector<FragmentSurface> newSurfaces(const std::vector<BrittleBodyState>& states);
-    FragmentSurface surfaceOf(BrittleBody fragment);
+    std::vector<FragmentSurface> surfacesOf(const std::vector<BrittleBody>& fragments);
 
     std::shared_ptr<Session> session_;
     BrittleWorld world_ = {0};
