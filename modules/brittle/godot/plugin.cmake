@@ -20,3 +20,5 @@ install(RUNTIME_DEPENDENCY_SET godot_needs PRE_EXCLUDE_REGEXES ".*" PRE_INCLUDE_
 install(FILES ${godot_addon}/brittle.gdextension ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${godot_installed}/demo/addons/brittle
     COMPONENT godot)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules/brittle/godot/demo DESTINATION ${godot_installed} COMPONENT godot)
+# The engine has to know of an extension before it looks at a project for the first time, or it ends there.
+install(FILES ${PROJECT_SOURCE_DIR}/modules/brittle/godot/addon/extension_list.cfg DESTINATION ${godot_installed}/demo/.godot COMPONENT godot)
