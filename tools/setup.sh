@@ -17,7 +17,7 @@ packages=(
   # the tests of the page of brittle accuracy
   chromium fonts-dejavu-core
   # the plugin for Godot is drawn by its test on a screen that nobody sees
-  xvfb
+  xvfb xauth
   # tests, and the peers of the bench
   libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libbullet-dev libcgal-dev libgmp-dev libmpfr-dev
   voro++-dev

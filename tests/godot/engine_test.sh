@@ -28,7 +28,7 @@ check_interface() {
   (cd "$folder" && "$godot" --headless --dump-gdextension-interface --dump-extension-api >/dev/null)
   "$compiler" -std=c++20 -fsyntax-only -I"$folder" -I"$source" "$here/interface_check.cpp"
   local declared=$source/modules/brittle/godot/interface/gdextension.h name
-  for name in $(grep -oE '^ +X\([^,]+, [a-z0-9_]+' "$declared" | grep -oE '[a-z0-9_]+$'); do
+  for name in $(grep -oE '^ +X\([a-z0-9_]+' "$declared" | grep -oE '[a-z0-9_]+$'); do
     grep -q "@name $name\$" "$folder/gdextension_interface.h" || fail "the engine has no function $name"
   done
   local called

@@ -14,7 +14,9 @@ bool takes(Type asked, const Any& given) {
 
 const EngineMethod* engineMethod(const FakeEngine& e, const Object& object, const std::string& method) {
     for (std::string name = object.class_name; !name.empty();) {
-        if (const auto found = engineMethods().find(name + "." + method); found != engineMethods().end()) return &found->second;
+        if (const auto found = engineMethods().find(std::string(name).append(".").append(method));
+            found != engineMethods().end())
+            return &found->second;
         const auto extension = e.classes.find(name);
         name = extension != e.classes.end() ? extension->second->parent : parentOf(name);
     }
@@ -23,6 +25,7 @@ const EngineMethod* engineMethod(const FakeEngine& e, const Object& object, cons
 
 Called callExtension(Object& object, const AnnouncedMethod& method, const std::vector<Any>& arguments) {
     std::vector<const void*> variants;
+    variants.reserve(arguments.size());
     for (const Any& argument : arguments)
         variants.push_back(argument.raw());
     Called called;

@@ -83,7 +83,7 @@ void newText(void* at, const char* utf8, int64_t size) {
 }
 int64_t readText(const void* at, char* to, int64_t room) {
     const std::string& text = *static_cast<const NativeText*>(at)->text;
-    if (to != nullptr) std::memcpy(to, text.data(), std::min(text.size(), static_cast<size_t>(room)));
+    if (to != nullptr) text.copy(to, static_cast<size_t>(room));
     return static_cast<int64_t>(text.size());
 }
 

@@ -39,7 +39,7 @@ public:
     static Any packed(Type type, const void* elements, size_t count);
     static Any callable(std::function<void()> function);
     static Any copyOf(const void* variant);
-    Any(const Any& other) : Any(copyOf(other.bytes_)) {}
+    Any(const Any& other) { other.writeTo(bytes_); }
     Any& operator=(Any other) noexcept;
     ~Any();
 

@@ -42,7 +42,7 @@ struct Same<R (*)(A...), S (*)(B...)> {
 
 namespace brittle_godot {
 struct Declared {
-#define FIELD(result, name, arguments) result(*name) arguments;
+#define FIELD(name, type) std::add_pointer_t<type> name;
     BRITTLE_GODOT_FUNCTIONS(FIELD)
 #undef FIELD
 };

@@ -7,7 +7,7 @@ namespace {
 using brittle_godot::CallError;
 
 const char* const kFunctions[] = {
-#define NAME(result, name, arguments) #name,
+#define NAME(name, type) #name,
     BRITTLE_GODOT_FUNCTIONS(NAME)
 #undef NAME
 };

@@ -2,6 +2,7 @@
 #include "tests/abi/host_device.h"
 #include "tests/godot/plugin_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -103,8 +104,8 @@ TEST_F(GodotWorld, MakesABodyOfEachInstanceOfAMultiMesh) {
     EXPECT_FALSE(result(node, "is_whole", {1}).asBool());
     EXPECT_EQ(emitted(node, "fractured"), 1u);
     EXPECT_EQ(made->emissions.back().arguments.back().asInt(), 1) << "it was the other copy";
-    EXPECT_EQ(std::memcmp(copies->fields.at("buffer").elements(), places, sizeof places), 0)
-        << "what was given has been changed";
+    const auto* kept = static_cast<const float*>(copies->fields.at("buffer").elements());
+    EXPECT_TRUE(std::equal(std::begin(places), std::end(places), kept)) << "what was given has been changed";
 }
 
 TEST_F(GodotWorld, SaysWhatCannotStart) {
@@ -184,6 +185,19 @@ TEST_F(GodotWorld, MayBeFreedByWhoeverHearsOfABreak) {
     made->listener = nullptr;
 }
 
+TEST_F(GodotWorld, MayBeFreedByWhoeverHearsThatItHasStarted) {
+    const Scene s = scene();
+    const uint64_t world_id = s.world->id;
+    made->listener = [&](const Emission& e) {
+        if (e.name != "started") return;
+        forget(s.world);
+        made->free(s.world);
+    };
+    made->frame(s.world, kFrame);
+    made->listener = nullptr;
+    EXPECT_EQ(made->find(world_id), nullptr);
+}
+
 TEST_F(GodotWorld, MayBeginAnewWhileItTells) {
     const Scene s = scene();
     made->frame(s.world, kFrame);
@@ -192,8 +206,11 @@ TEST_F(GodotWorld, MayBeginAnewWhileItTells) {
         if (e.name == "fractured" && e.object == s.world->id) result(s.world, "restart");
     };
     made->frame(s.world, kFrame);
-    made->listener = nullptr;
     EXPECT_TRUE(result(s.world, "is_started").asBool());
+    EXPECT_EQ(fragmentsOf(s.world), 0);
+    strike(s.world, 0.2f, 0.5f, 0);
+    EXPECT_FALSE(result(s.world, "step", {5}).asBool()) << "these are steps of a world that is no more";
+    made->listener = nullptr;
     EXPECT_EQ(fragmentsOf(s.world), 0);
     EXPECT_TRUE(result(s.cube, "is_whole", {0}).asBool());
 }

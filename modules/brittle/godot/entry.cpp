@@ -5,37 +5,33 @@
 #include "modules/brittle/godot/nodes/brittle_material.h"
 #include "modules/brittle/godot/nodes/brittle_world.h"
 
-#include <array>
 #include <cstdio>
+#include <deque>
 
 namespace brittle_godot {
 namespace {
 
-using Classes = std::array<ClassRecord, 3>;
-std::unique_ptr<Classes> classes;
+std::deque<ClassRecord> classes; // stay where they are: the engine has their addresses
 
 template <class Node>
-std::unique_ptr<Instance> make() {
-    return std::make_unique<Node>();
+void announce(const char* name, const char* parent) {
+    ClassRecord& record =
+        classes.emplace_back(name, parent, []() -> std::unique_ptr<Instance> { return std::make_unique<Node>(); });
+    Node::describe(record);
+    record.announce();
 }
 
 void initialize(void*, int32_t level) {
     if (level != kLevelScene) return;
-    classes.reset(new Classes{ClassRecord("BrittleMaterial", "Resource", make<MaterialResource>),
-                              ClassRecord("BrittleBody3D", "MeshInstance3D", make<BodyNode>),
-                              ClassRecord("BrittleWorld3D", "Node3D", make<WorldNode>)});
-    MaterialResource::describe((*classes)[0]);
-    BodyNode::describe((*classes)[1]);
-    WorldNode::describe((*classes)[2]);
-    for (ClassRecord& record : *classes)
-        record.announce();
+    announce<MaterialResource>("BrittleMaterial", "Resource");
+    announce<BodyNode>("BrittleBody3D", "MeshInstance3D");
+    announce<WorldNode>("BrittleWorld3D", "Node3D");
 }
 
 void deinitialize(void*, int32_t level) {
-    if (level != kLevelScene || classes == nullptr) return;
-    for (auto record = classes->rbegin(); record != classes->rend(); ++record)
-        record->withdraw();
-    classes.reset();
+    if (level != kLevelScene) return;
+    for (; !classes.empty(); classes.pop_back())
+        classes.back().withdraw();
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "modules/brittle/godot/conversion/mesh_in.h"
 
-#include "modules/brittle/godot/device/session.h"
+#include "modules/brittle/godot/failure.h"
 
 #include <algorithm>
 #include <numeric>

@@ -36,7 +36,7 @@ void addSurface(const Value& mesh, std::span<const BrittleVertex> vertices, cons
 } // namespace
 
 Value arrayMeshOf(const FragmentSurface& surface, const Value& outer_material, const Value& cut_material) {
-    const Value mesh = newObject("ArrayMesh");
+    Value mesh = newObject("ArrayMesh");
     const std::span<const BrittleVertex> all(surface.vertices);
     addSurface(mesh, all.first(surface.outer), "outer", outer_material);
     addSurface(mesh, all.subspan(surface.outer), "cut", cut_material);

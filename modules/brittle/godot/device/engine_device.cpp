@@ -2,6 +2,8 @@
 
 #include "modules/brittle/godot/interface/value.h"
 
+#include <bit>
+
 namespace brittle_godot {
 namespace {
 
@@ -19,7 +21,7 @@ uint64_t resource(const Value& rendering_device, int which) {
 
 template <class Handle>
 Handle handleOf(const Value& rendering_device, int which) {
-    return reinterpret_cast<Handle>(resource(rendering_device, which));
+    return std::bit_cast<Handle>(resource(rendering_device, which));
 }
 
 } // namespace

@@ -3,17 +3,11 @@
 
 #include "modules/brittle/brittle.h"
 #include "modules/brittle/godot/device/device_thread.h"
+#include "modules/brittle/godot/failure.h"
 
-#include <stdexcept>
 #include <string>
 
 namespace brittle_godot {
-
-// A call that Brittle refused, in its words.
-class Failure : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 enum class DeviceChoice { Engine = 0, Own = 1 }; // Engine: its own device where it has one that does, else ours
 

@@ -129,55 +129,54 @@ struct Initialization {
 
 using GetProcAddress = AnyFunction (*)(const char* name);
 
-// Every function of the engine's that the plugin calls: X(result, name, (arguments)).
+// Every function of the engine's that the plugin calls: X(name, type).
 #define BRITTLE_GODOT_FUNCTIONS(X)                                                                                             \
-    X(void, print_error_with_message, (const char*, const char*, const char*, const char*, int32_t, uint8_t))                  \
-    X(void, print_warning_with_message, (const char*, const char*, const char*, const char*, int32_t, uint8_t))                \
-    X(void, string_name_new_with_latin1_chars, (void*, const char*, uint8_t))                                                  \
-    X(void, string_new_with_utf8_chars_and_len, (void*, const char*, int64_t))                                                 \
-    X(int64_t, string_to_utf8_chars, (const void*, char*, int64_t))                                                            \
-    X(void, variant_new_nil, (void*))                                                                                          \
-    X(void, variant_new_copy, (void*, const void*))                                                                            \
-    X(void, variant_destroy, (void*))                                                                                          \
-    X(int32_t, variant_get_type, (const void*))                                                                                \
-    X(void, variant_call, (void*, const void*, const void* const*, int64_t, void*, CallError*))                                \
-    X(void, variant_construct, (int32_t, void*, const void* const*, int32_t, CallError*))                                      \
-    X(uint64_t, variant_get_object_instance_id, (const void*))                                                                 \
-    X(void, variant_get_indexed, (const void*, int64_t, void*, uint8_t*, uint8_t*))                                            \
-    X(void, variant_set_indexed, (void*, int64_t, const void*, uint8_t*, uint8_t*))                                            \
-    X(TypeConstructor, get_variant_from_type_constructor, (int32_t))                                                           \
-    X(TypeConstructor, get_variant_to_type_constructor, (int32_t))                                                             \
-    X(InternalGetter, variant_get_ptr_internal_getter, (int32_t))                                                              \
-    X(Destructor, variant_get_ptr_destructor, (int32_t))                                                                       \
-    X(uint8_t*, packed_byte_array_operator_index, (void*, int64_t))                                                            \
-    X(const uint8_t*, packed_byte_array_operator_index_const, (const void*, int64_t))                                          \
-    X(int32_t*, packed_int32_array_operator_index, (void*, int64_t))                                                           \
-    X(const int32_t*, packed_int32_array_operator_index_const, (const void*, int64_t))                                         \
-    X(int64_t*, packed_int64_array_operator_index, (void*, int64_t))                                                           \
-    X(const int64_t*, packed_int64_array_operator_index_const, (const void*, int64_t))                                         \
-    X(float*, packed_float32_array_operator_index, (void*, int64_t))                                                           \
-    X(const float*, packed_float32_array_operator_index_const, (const void*, int64_t))                                         \
-    X(void*, packed_vector2_array_operator_index, (void*, int64_t))                                                            \
-    X(void*, packed_vector2_array_operator_index_const, (const void*, int64_t))                                                \
-    X(void*, packed_vector3_array_operator_index, (void*, int64_t))                                                            \
-    X(void*, packed_vector3_array_operator_index_const, (const void*, int64_t))                                                \
-    X(void*, global_get_singleton, (const void*))                                                                              \
-    X(void*, classdb_construct_object2, (const void*))                                                                         \
-    X(const void*, classdb_get_method_bind, (const void*, const void*, int64_t))                                               \
-    X(void, object_method_bind_ptrcall, (const void*, void*, const void* const*, void*))                                       \
-    X(void*, object_get_instance_from_id, (uint64_t))                                                                          \
-    X(void, object_set_instance, (void*, const void*, void*))                                                                  \
-    X(void*, object_get_instance_binding, (void*, void*, const BindingCallbacks*))                                             \
-    X(void, object_set_instance_binding, (void*, void*, void*, const BindingCallbacks*))                                       \
-    X(void, ref_set_object, (void*, void*))                                                                                    \
-    X(void, callable_custom_create2, (void*, CallableInfo*))                                                                   \
-    X(void, classdb_register_extension_class4, (void*, const void*, const void*, const ClassInfo*))                            \
-    X(void, classdb_register_extension_class_method, (void*, const void*, const MethodInfo*))                                  \
-    X(void, classdb_register_extension_class_integer_constant,                                                                 \
-      (void*, const void*, const void*, const void*, int64_t, uint8_t))                                                        \
-    X(void, classdb_register_extension_class_property, (void*, const void*, const PropertyInfo*, const void*, const void*))    \
-    X(void, classdb_register_extension_class_property_group, (void*, const void*, const void*, const void*))                   \
-    X(void, classdb_register_extension_class_signal, (void*, const void*, const void*, const PropertyInfo*, int64_t))          \
-    X(void, classdb_unregister_extension_class, (void*, const void*))
+    X(print_error_with_message, void(const char*, const char*, const char*, const char*, int32_t, uint8_t))                    \
+    X(print_warning_with_message, void(const char*, const char*, const char*, const char*, int32_t, uint8_t))                  \
+    X(string_name_new_with_latin1_chars, void(void*, const char*, uint8_t))                                                    \
+    X(string_new_with_utf8_chars_and_len, void(void*, const char*, int64_t))                                                   \
+    X(string_to_utf8_chars, int64_t(const void*, char*, int64_t))                                                              \
+    X(variant_new_nil, void(void*))                                                                                            \
+    X(variant_new_copy, void(void*, const void*))                                                                              \
+    X(variant_destroy, void(void*))                                                                                            \
+    X(variant_get_type, int32_t(const void*))                                                                                  \
+    X(variant_call, void(void*, const void*, const void* const*, int64_t, void*, CallError*))                                  \
+    X(variant_construct, void(int32_t, void*, const void* const*, int32_t, CallError*))                                        \
+    X(variant_get_object_instance_id, uint64_t(const void*))                                                                   \
+    X(variant_get_indexed, void(const void*, int64_t, void*, uint8_t*, uint8_t*))                                              \
+    X(variant_set_indexed, void(void*, int64_t, const void*, uint8_t*, uint8_t*))                                              \
+    X(get_variant_from_type_constructor, TypeConstructor(int32_t))                                                             \
+    X(get_variant_to_type_constructor, TypeConstructor(int32_t))                                                               \
+    X(variant_get_ptr_internal_getter, InternalGetter(int32_t))                                                                \
+    X(variant_get_ptr_destructor, Destructor(int32_t))                                                                         \
+    X(packed_byte_array_operator_index, uint8_t*(void*, int64_t))                                                              \
+    X(packed_byte_array_operator_index_const, const uint8_t*(const void*, int64_t))                                            \
+    X(packed_int32_array_operator_index, int32_t*(void*, int64_t))                                                             \
+    X(packed_int32_array_operator_index_const, const int32_t*(const void*, int64_t))                                           \
+    X(packed_int64_array_operator_index, int64_t*(void*, int64_t))                                                             \
+    X(packed_int64_array_operator_index_const, const int64_t*(const void*, int64_t))                                           \
+    X(packed_float32_array_operator_index, float*(void*, int64_t))                                                             \
+    X(packed_float32_array_operator_index_const, const float*(const void*, int64_t))                                           \
+    X(packed_vector2_array_operator_index, void*(void*, int64_t))                                                              \
+    X(packed_vector2_array_operator_index_const, void*(const void*, int64_t))                                                  \
+    X(packed_vector3_array_operator_index, void*(void*, int64_t))                                                              \
+    X(packed_vector3_array_operator_index_const, void*(const void*, int64_t))                                                  \
+    X(global_get_singleton, void*(const void*))                                                                                \
+    X(classdb_construct_object2, void*(const void*))                                                                           \
+    X(classdb_get_method_bind, const void*(const void*, const void*, int64_t))                                                 \
+    X(object_method_bind_ptrcall, void(const void*, void*, const void* const*, void*))                                         \
+    X(object_get_instance_from_id, void*(uint64_t))                                                                            \
+    X(object_set_instance, void(void*, const void*, void*))                                                                    \
+    X(object_get_instance_binding, void*(void*, void*, const BindingCallbacks*))                                               \
+    X(object_set_instance_binding, void(void*, void*, void*, const BindingCallbacks*))                                         \
+    X(ref_set_object, void(void*, void*))                                                                                      \
+    X(callable_custom_create2, void(void*, CallableInfo*))                                                                     \
+    X(classdb_register_extension_class4, void(void*, const void*, const void*, const ClassInfo*))                              \
+    X(classdb_register_extension_class_method, void(void*, const void*, const MethodInfo*))                                    \
+    X(classdb_register_extension_class_integer_constant, void(void*, const void*, const void*, const void*, int64_t, uint8_t)) \
+    X(classdb_register_extension_class_property, void(void*, const void*, const PropertyInfo*, const void*, const void*))      \
+    X(classdb_register_extension_class_property_group, void(void*, const void*, const void*, const void*))                     \
+    X(classdb_register_extension_class_signal, void(void*, const void*, const void*, const PropertyInfo*, int64_t))            \
+    X(classdb_unregister_extension_class, void(void*, const void*))
 
 } // namespace brittle_godot

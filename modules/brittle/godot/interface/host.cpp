@@ -17,7 +17,7 @@ const Host& host() { return the_host; }
 
 bool meetHost(GetProcAddress get_proc_address, void* library, std::string& missing) {
     the_host.library = library;
-#define BRITTLE_GODOT_FIND(result, name, arguments) find(get_proc_address, #name, the_host.name, missing);
+#define BRITTLE_GODOT_FIND(name, type) find(get_proc_address, #name, the_host.name, missing);
     BRITTLE_GODOT_FUNCTIONS(BRITTLE_GODOT_FIND)
 #undef BRITTLE_GODOT_FIND
     return missing.empty();

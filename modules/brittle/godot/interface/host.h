@@ -5,12 +5,13 @@
 #include "modules/brittle/godot/interface/gdextension.h"
 
 #include <string>
+#include <type_traits>
 
 namespace brittle_godot {
 
 struct Host {
     void* library = nullptr;
-#define BRITTLE_GODOT_FIELD(result, name, arguments) result(*name) arguments = nullptr;
+#define BRITTLE_GODOT_FIELD(name, type) std::add_pointer_t<type> name = nullptr;
     BRITTLE_GODOT_FUNCTIONS(BRITTLE_GODOT_FIELD)
 #undef BRITTLE_GODOT_FIELD
 };

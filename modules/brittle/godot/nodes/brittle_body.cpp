@@ -1,7 +1,7 @@
 #include "modules/brittle/godot/nodes/brittle_body.h"
 
 #include "modules/brittle/godot/conversion/placement.h"
-#include "modules/brittle/godot/device/session.h"
+#include "modules/brittle/godot/failure.h"
 #include "modules/brittle/godot/nodes/brittle_material.h"
 #include "modules/brittle/godot/nodes/brittle_world.h"
 
@@ -52,7 +52,7 @@ std::string BodyNode::nodeName() const { return self().call("to_string").asStrin
 Value BodyNode::mesh() const { return hasCopies() ? settings_.copies.call("get_mesh") : self().call("get_mesh"); }
 
 Value BodyNode::outerMaterial() const {
-    const Value over = self().call("get_material_override");
+    Value over = self().call("get_material_override");
     if (!over.isNull()) return over;
     if (!hasCopies()) return self().call("get_active_material", {0});
     const Value drawn = mesh();

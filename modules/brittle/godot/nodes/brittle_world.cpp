@@ -57,8 +57,9 @@ bool WorldNode::start() {
         fail(e.what());
         return false;
     }
+    const auto is_alive = is_alive_;
     self().call("emit_signal", {"started"});
-    return isStarted();
+    return *is_alive && isStarted();
 }
 
 void WorldNode::joinAll(Gathered gathered) {
@@ -158,11 +159,12 @@ bool WorldNode::attempt(const char* what, const std::function<void()>& job) {
 bool WorldNode::step(int64_t steps) {
     if (has_failed_ || (!isStarted() && !start())) return false;
     const auto is_alive = is_alive_;
+    const uint64_t generation = generation_;
     for (int64_t k = 0; k < steps; ++k) {
         Report report;
         if (!attempt("step", [&] { report = world_->step(); })) return false;
         collect();
-        if (!*is_alive || !isStarted() || !takeIn(report) || !*is_alive || has_failed_) return false;
+        if (!*is_alive || generation_ != generation || !takeIn(report)) return false;
     }
     return true;
 }
@@ -184,8 +186,10 @@ bool WorldNode::restore(const std::vector<uint8_t>& bytes) {
         report = world_->look();
     });
     if (!is_restored) return false;
-    const std::scoped_lock lock(mail_->mutex);
-    mail_->reports.clear(); // of what now never was
+    {
+        const std::scoped_lock lock(mail_->mutex);
+        mail_->reports.clear(); // of what now never was
+    }
     is_resting_.assign(is_resting_.size(), false);
     has_failed_ = false;
     return takeIn(report);

@@ -3,7 +3,7 @@
 
 #include "modules/brittle/godot/interface/class_record.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace brittle_godot {
 
@@ -17,9 +17,9 @@ void numberProperty(ClassRecord& record, const char* name, const char* range_tex
 
 // Of counts, choices and flags; what is below 0 is 0.
 template <class Node>
-void countProperty(ClassRecord& record, const char* name, Hint hint, uint32_t& (*field)(Node&)) {
+void countProperty(ClassRecord& record, const char* name, const Hint& hint, uint32_t& (*field)(Node&)) {
     record.property(
-        name, Type::Int, std::move(hint),
+        name, Type::Int, hint,
         [field](Instance& i, const Value& v) {
             field(static_cast<Node&>(i)) =
                 static_cast<uint32_t>(std::min<int64_t>(std::max<int64_t>(v.asInt(), 0), UINT32_MAX));
