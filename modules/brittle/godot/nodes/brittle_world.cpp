@@ -49,9 +49,9 @@ bool WorldNode::start() {
     try {
         Gathered gathered = gather(self(), def);
         if (gathered.links.empty()) throw Failure("there is no BrittleBody3D below it");
-        auto session = Session::open(static_cast<DeviceChoice>(std::min<uint32_t>(device, 1)));
-        session->thread().run([&] { world_ = std::make_unique<RunningWorld>(session, gathered.plan); });
-        session_ = std::move(session);
+        auto shared = SharedContext::open(static_cast<DeviceChoice>(std::min<uint32_t>(device, 1)));
+        shared->thread().run([&] { world_ = std::make_unique<RunningWorld>(shared, gathered.plan); });
+        shared_ = std::move(shared);
         joinAll(std::move(gathered));
     } catch (const std::exception& e) {
         fail(e.what());
@@ -85,12 +85,12 @@ void WorldNode::stop() {
     link_of_.clear();
     fragments_.reset();
     mail_.reset();
-    if (world_ != nullptr) session_->thread().run([this] { world_.reset(); });
-    session_.reset();
+    if (world_ != nullptr) shared_->thread().run([this] { world_.reset(); });
+    shared_.reset();
 }
 
 bool WorldNode::restart() {
-    const auto kept_for_the_next = session_;
+    const auto kept_for_the_next = shared_;
     for (const Link& link : links_)
         if (link.node != nullptr && link.copy == 0) link.node->returnToStart();
     stop();
@@ -123,7 +123,7 @@ void WorldNode::postSteps() {
         mail_->is_busy = true;
     }
     owed_seconds_ -= steps * def.dt;
-    session_->thread().post([world = world_.get(), mail = mail_, steps] {
+    shared_->thread().post([world = world_.get(), mail = mail_, steps] {
         std::vector<Report> reports;
         for (int k = 0; k < steps && (reports.empty() || reports.back().failure.empty()); ++k)
             reports.push_back(world->step());
@@ -148,7 +148,7 @@ void WorldNode::collect() {
 bool WorldNode::attempt(const char* what, const std::function<void()>& job) {
     try {
         if (!isStarted()) throw Failure("the world has not been started");
-        session_->thread().run(job);
+        shared_->thread().run(job);
         return true;
     } catch (const std::exception& e) {
         tellError(self().call("to_string").asString() + ": " + what + ": " + e.what());

@@ -36,7 +36,7 @@ public:
 
     const Fragments* fragments() const { return fragments_.get(); }
     Value bodyOf(const DrawnFragment& fragment) const;
-    const Session* session() const { return session_.get(); }
+    const SharedContext* sharedContext() const { return shared_.get(); }
 
 private:
     // Between the main thread and the device's.
@@ -71,8 +71,8 @@ private:
     void fail(const std::string& message);
     void joinAll(Gathered gathered);
 
-    std::shared_ptr<Session> session_;
-    std::unique_ptr<RunningWorld> world_; // used on the session's thread
+    std::shared_ptr<SharedContext> shared_;
+    std::unique_ptr<RunningWorld> world_; // used on the context's thread
     std::unique_ptr<Fragments> fragments_;
     std::shared_ptr<Mail> mail_;
     std::vector<Link> links_;

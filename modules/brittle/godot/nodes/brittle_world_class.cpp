@@ -83,10 +83,11 @@ void describeRunning(ClassRecord& r) {
              [](Instance& i, Arguments a) { return Value(of(i).restore(a[0].asVector<uint8_t>())); });
     r.method("hash_state", {}, {"", Type::Int}, [](Instance& i, Arguments) { return Value(of(i).hash()); });
     r.method("get_device_name", {}, {"", Type::String}, [](Instance& i, Arguments) {
-        return Value(std::string_view(of(i).session() == nullptr ? "" : of(i).session()->deviceName()));
+        return Value(std::string_view(of(i).sharedContext() == nullptr ? "" : of(i).sharedContext()->deviceName()));
     });
-    r.method("is_on_engine_device", {}, {"", Type::Bool},
-             [](Instance& i, Arguments) { return Value(of(i).session() != nullptr && of(i).session()->isOnEngineDevice()); });
+    r.method("is_on_engine_device", {}, {"", Type::Bool}, [](Instance& i, Arguments) {
+        return Value(of(i).sharedContext() != nullptr && of(i).sharedContext()->isOnEngineDevice());
+    });
 }
 
 void describeFragments(ClassRecord& r) {

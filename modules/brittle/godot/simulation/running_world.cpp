@@ -30,23 +30,23 @@ BrittleColliderDef colliderOf(const BrittleBodyDef& body) {
 
 } // namespace
 
-RunningWorld::RunningWorld(std::shared_ptr<Session> session, const WorldPlan& plan) : session_(std::move(session)) {
+RunningWorld::RunningWorld(std::shared_ptr<SharedContext> shared, const WorldPlan& plan) : shared_(std::move(shared)) {
     hears_ = (plan.def.effects & BRITTLE_EFFECT_EVENTS) != 0;
-    session_->must(brittleCreateWorld(session_->context(), &plan.def, &world_));
+    shared_->must(brittleCreateWorld(shared_->context(), &plan.def, &world_));
     try {
         fill(plan);
-        session_->must(brittleStartWorld(session_->context(), world_));
+        shared_->must(brittleStartWorld(shared_->context(), world_));
     } catch (...) {
-        brittleDestroyWorld(session_->context(), world_);
+        brittleDestroyWorld(shared_->context(), world_);
         throw;
     }
 }
 
-RunningWorld::~RunningWorld() { brittleDestroyWorld(session_->context(), world_); }
+RunningWorld::~RunningWorld() { brittleDestroyWorld(shared_->context(), world_); }
 
 // Meshes and materials are needed until the bodies have been added.
 void RunningWorld::fill(const WorldPlan& plan) {
-    BrittleContext* context = session_->context();
+    BrittleContext* context = shared_->context();
     std::vector<BrittleMesh> meshes;
     std::vector<BrittleMaterial> materials;
     const auto release = [&] {
@@ -59,7 +59,7 @@ void RunningWorld::fill(const WorldPlan& plan) {
         for (const MaterialPlan& material : plan.materials) {
             BrittleMaterialDef def = material.def;
             def.like = material.like.c_str();
-            session_->must(brittleCreateMaterial(context, &def, &materials.emplace_back()));
+            shared_->must(brittleCreateMaterial(context, &def, &materials.emplace_back()));
         }
         meshes.resize(plan.meshes.size());
         for (const BodyPlan& body : plan.bodies) {
@@ -86,16 +86,16 @@ void RunningWorld::add(const BodyPlan& plan, const std::vector<BrittleMesh>& mes
     def.shape.point_count = static_cast<uint32_t>(plan.hull.size());
     const BrittleColliderDef collider = colliderOf(def);
     BrittleBody body = {0};
-    const BrittleResult result = plan.is_collider ? brittleAddCollider(session_->context(), world_, &collider, &body)
-                                                  : brittleAddBody(session_->context(), world_, &def, &body);
-    if (result != BRITTLE_OK) throw Failure(plan.who + ": " + brittleLastError(session_->context()));
+    const BrittleResult result = plan.is_collider ? brittleAddCollider(shared_->context(), world_, &collider, &body)
+                                                  : brittleAddBody(shared_->context(), world_, &def, &body);
+    if (result != BRITTLE_OK) throw Failure(plan.who + ": " + brittleLastError(shared_->context()));
     ids_.push_back(body.id);
 }
 
 // BAD_VALUE: a body that outgrew its numbers was stopped, and the step was made.
 Report RunningWorld::step() {
-    const BrittleResult result = brittleStep(session_->context(), world_, 1);
-    const std::string trouble = result == BRITTLE_OK ? "" : brittleLastError(session_->context());
+    const BrittleResult result = brittleStep(shared_->context(), world_, 1);
+    const std::string trouble = result == BRITTLE_OK ? "" : brittleLastError(shared_->context());
     const bool is_made = result == BRITTLE_OK || result == BRITTLE_BAD_VALUE;
     Report report = is_made ? told() : Report();
     if (is_made)
@@ -125,10 +125,10 @@ std::vector<BrittleBodyState> RunningWorld::bodies() {
     uint32_t count = 0;
     BrittleResult result = BRITTLE_BUFFER_TOO_SMALL;
     while (result == BRITTLE_BUFFER_TOO_SMALL) {
-        result = brittleGetBodies(session_->context(), world_, states.data(), static_cast<uint32_t>(states.size()), &count);
+        result = brittleGetBodies(shared_->context(), world_, states.data(), static_cast<uint32_t>(states.size()), &count);
         states.resize(count);
     }
-    session_->must(result);
+    shared_->must(result);
     return states;
 }
 
@@ -139,7 +139,7 @@ std::vector<BrittleBreak> RunningWorld::breaks() {
     while (told == kAtATime) {
         const size_t before = all.size();
         all.resize(before + kAtATime);
-        session_->must(brittleGetBreaks(session_->context(), world_, all.data() + before, kAtATime, &told));
+        shared_->must(brittleGetBreaks(shared_->context(), world_, all.data() + before, kAtATime, &told));
         all.resize(before + told);
     }
     return all;
@@ -166,10 +166,10 @@ std::vector<FragmentSurface> RunningWorld::surfacesOf(const std::vector<BrittleB
     BrittleResult result = BRITTLE_BUFFER_TOO_SMALL;
     while (result == BRITTLE_BUFFER_TOO_SMALL) {
         vertices.resize(std::max<size_t>(vertices.size(), total));
-        result = brittleGetSurfaces(session_->context(), world_, fragments.data(), number, vertices.data(),
+        result = brittleGetSurfaces(shared_->context(), world_, fragments.data(), number, vertices.data(),
                                     static_cast<uint32_t>(vertices.size()), &total, counts.data(), outers.data());
     }
-    session_->must(result);
+    shared_->must(result);
     std::vector<FragmentSurface> surfaces;
     auto next = vertices.begin();
     for (uint32_t k = 0; k < number; ++k) {
@@ -180,24 +180,24 @@ std::vector<FragmentSurface> RunningWorld::surfacesOf(const std::vector<BrittleB
 }
 
 void RunningWorld::damage(const BrittleVec3& point, double radius, double energy) {
-    session_->must(brittleDamage(session_->context(), world_, point, radius, energy));
+    shared_->must(brittleDamage(shared_->context(), world_, point, radius, energy));
 }
 
 std::vector<uint8_t> RunningWorld::save() {
     size_t size = 0;
-    session_->must(brittleSaveState(session_->context(), world_, nullptr, 0, &size));
+    shared_->must(brittleSaveState(shared_->context(), world_, nullptr, 0, &size));
     std::vector<uint8_t> bytes(size);
-    session_->must(brittleSaveState(session_->context(), world_, bytes.data(), bytes.size(), &size));
+    shared_->must(brittleSaveState(shared_->context(), world_, bytes.data(), bytes.size(), &size));
     return bytes;
 }
 
 void RunningWorld::restore(const std::vector<uint8_t>& bytes) {
-    session_->must(brittleRestoreState(session_->context(), world_, bytes.data(), bytes.size()));
+    shared_->must(brittleRestoreState(shared_->context(), world_, bytes.data(), bytes.size()));
 }
 
 uint64_t RunningWorld::hash() {
     uint64_t hash = 0;
-    session_->must(brittleHashState(session_->context(), world_, &hash));
+    shared_->must(brittleHashState(shared_->context(), world_, &hash));
     return hash;
 }
 

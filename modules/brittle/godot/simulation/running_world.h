@@ -1,7 +1,7 @@
-// A started world of Brittle's. All of it is used on the session's thread.
+// A started world of Brittle's. All of it is used on the context's thread.
 #pragma once
 
-#include "modules/brittle/godot/device/session.h"
+#include "modules/brittle/godot/device/shared_context.h"
 #include "modules/brittle/godot/simulation/world_plan.h"
 
 #include <unordered_set>
@@ -26,7 +26,7 @@ struct Report {
 class RunningWorld {
 public:
     // Throws Failure, which says which body cannot be made and why.
-    RunningWorld(std::shared_ptr<Session> session, const WorldPlan& plan);
+    RunningWorld(std::shared_ptr<SharedContext> shared, const WorldPlan& plan);
     ~RunningWorld();
     RunningWorld(const RunningWorld&) = delete;
     RunningWorld& operator=(const RunningWorld&) = delete;
@@ -49,7 +49,7 @@ private:
     std::vector<FragmentSurface> newSurfaces(const std::vector<BrittleBodyState>& states);
     std::vector<FragmentSurface> surfacesOf(const std::vector<BrittleBody>& fragments);
 
-    std::shared_ptr<Session> session_;
+    std::shared_ptr<SharedContext> shared_;
     BrittleWorld world_ = {0};
     bool hears_ = false; // it has the effect `events`
     std::vector<uint64_t> ids_;

@@ -11,13 +11,13 @@ namespace brittle_godot {
 
 enum class DeviceChoice { Engine = 0, Own = 1 }; // Engine: its own device where it has one that does, else ours
 
-class Session {
+class SharedContext {
 public:
     // That of this choice, made where no world has it yet. Throws Failure. On the main thread.
-    static std::shared_ptr<Session> open(DeviceChoice choice);
-    ~Session();
-    Session(const Session&) = delete;
-    Session& operator=(const Session&) = delete;
+    static std::shared_ptr<SharedContext> open(DeviceChoice choice);
+    ~SharedContext();
+    SharedContext(const SharedContext&) = delete;
+    SharedContext& operator=(const SharedContext&) = delete;
 
     DeviceThread& thread() { return *thread_; }
     bool isOnEngineDevice() const { return is_engines_; }
@@ -28,8 +28,9 @@ public:
     void must(BrittleResult result) const; // throws Failure with the context's last error
 
 private:
-    Session(std::unique_ptr<DeviceThread> thread, bool is_engines) : thread_(std::move(thread)), is_engines_(is_engines) {}
-    static std::shared_ptr<Session> onEngines(); // NULL where there is none, or none to be used, and then with a warning
+    SharedContext(std::unique_ptr<DeviceThread> thread, bool is_engines)
+        : thread_(std::move(thread)), is_engines_(is_engines) {}
+    static std::shared_ptr<SharedContext> onEngines(); // NULL where there is none, or none to be used, and then with a warning
     void start(const BrittleVulkan& vulkan);
     static void hear(void* user, BrittleLogLevel level, const char* message);
 

@@ -1,4 +1,4 @@
-#include "modules/brittle/godot/device/session.h"
+#include "modules/brittle/godot/device/shared_context.h"
 
 #include "modules/brittle/godot/device/engine_device.h"
 #include "modules/brittle/godot/interface/messages.h"
@@ -9,32 +9,32 @@
 namespace brittle_godot {
 namespace {
 
-std::array<std::weak_ptr<Session>, 2> open_sessions; // of the main thread's
+std::array<std::weak_ptr<SharedContext>, 2> open_contexts; // of the main thread's
 
 } // namespace
 
-std::shared_ptr<Session> Session::open(DeviceChoice choice) {
-    std::weak_ptr<Session>& kept = open_sessions.at(static_cast<size_t>(choice));
-    if (auto session = kept.lock()) return session;
-    std::shared_ptr<Session> session = choice == DeviceChoice::Engine ? onEngines() : nullptr;
-    if (session == nullptr) {
-        session.reset(new Session(callingThread(), false));
-        session->start(brittleDefaultContextDef().vulkan);
+std::shared_ptr<SharedContext> SharedContext::open(DeviceChoice choice) {
+    std::weak_ptr<SharedContext>& kept = open_contexts.at(static_cast<size_t>(choice));
+    if (auto shared = kept.lock()) return shared;
+    std::shared_ptr<SharedContext> shared = choice == DeviceChoice::Engine ? onEngines() : nullptr;
+    if (shared == nullptr) {
+        shared.reset(new SharedContext(callingThread(), false));
+        shared->start(brittleDefaultContextDef().vulkan);
     }
-    kept = session;
-    return session;
+    kept = shared;
+    return shared;
 }
 
-std::shared_ptr<Session> Session::onEngines() {
+std::shared_ptr<SharedContext> SharedContext::onEngines() {
     if (singleton("RenderingServer").call("get_rendering_device").isNull()) return nullptr; // as headless
-    std::shared_ptr<Session> session(new Session(renderThread(), true));
+    std::shared_ptr<SharedContext> shared(new SharedContext(renderThread(), true));
     std::string why;
     std::optional<BrittleVulkan> vulkan;
     try {
-        session->thread().run([&] { vulkan = engineVulkan(why); });
+        shared->thread().run([&] { vulkan = engineVulkan(why); });
         if (vulkan) {
-            session->start(*vulkan);
-            return session;
+            shared->start(*vulkan);
+            return shared;
         }
     } catch (const Failure& failure) {
         why = failure.what();
@@ -43,7 +43,7 @@ std::shared_ptr<Session> Session::onEngines() {
     return nullptr;
 }
 
-void Session::start(const BrittleVulkan& vulkan) {
+void SharedContext::start(const BrittleVulkan& vulkan) {
     thread_->run([&] {
         BrittleContextDef def = brittleDefaultContextDef();
         def.vulkan = vulkan;
@@ -56,16 +56,16 @@ void Session::start(const BrittleVulkan& vulkan) {
     });
 }
 
-Session::~Session() {
+SharedContext::~SharedContext() {
     thread_->run([&] { brittleDestroyContext(context_); });
 }
 
-void Session::must(BrittleResult result) const {
+void SharedContext::must(BrittleResult result) const {
     if (result != BRITTLE_OK) throw Failure(brittleLastError(context_));
 }
 
-void Session::hear(void* user, BrittleLogLevel level, const char* message) {
-    if (level == BRITTLE_LOG_ERROR) static_cast<Session*>(user)->heard_ = message;
+void SharedContext::hear(void* user, BrittleLogLevel level, const char* message) {
+    if (level == BRITTLE_LOG_ERROR) static_cast<SharedContext*>(user)->heard_ = message;
     if (level == BRITTLE_LOG_WARNING) tellWarning(message);
 }
 
