@@ -23,6 +23,13 @@ brittle::SceneDescription builtin(const std::string& name) {
 
 brittle::SceneDescription breakingBall() { return breaking_scenes::shot(30, "glass"); }
 
+// Of as few kernels as there are.
+brittle::SceneDescription fallingBall() {
+    brittle::SceneDescription scene = breaking_scenes::sceneOf({breaking_scenes::ball({0, 1, 0}, "glass")}, false);
+    scene.effects = {"gravity"};
+    return scene;
+}
+
 uint64_t hashOf(World& world) {
     const auto hash = world.hash();
     EXPECT_TRUE(hash) << hash.error().message;
@@ -218,7 +225,7 @@ TEST_F(WorldReload, TellsTheTimeOfEachKernel) {
 
 // What runs under the validation layers and the sanitizers: a swap in a world's life.
 TEST(SmallWorldReload, PutsAnotherVersionInPlaceBetweenSteps) {
-    const auto world = worldOf(builtin("stack_10")), alone = worldOf(builtin("stack_10"));
+    const auto world = worldOf(fallingBall()), alone = worldOf(fallingBall());
     ASSERT_TRUE(world && alone);
     run(*world, 3);
     const fs::path root = fs::path(BRITTLE_SOURCE_DIR) / "shaders-spirv";
