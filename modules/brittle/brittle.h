@@ -426,18 +426,19 @@ typedef enum BrittleOutcome {
 
 /* A body that broke, or would have. */
 typedef struct BrittleBreak {
-    BrittleBody body;     /* stale from then on, if it broke */
-    BrittleBody hit_by;   /* all zeros: brittleDamage */
-    uint32_t step;        /* counted from 1 */
-    uint32_t outcome;     /* BRITTLE_BROKE... */
-    uint32_t fragments;   /* bodies that it became */
-    uint32_t dust_cells;  /* cells too small for that */
-    double dust_mass;     /* kg of them */
-    BrittleVec3 position; /* of the blow, world */
-    BrittleVec3 normal;   /* from the body to what hit it, unit */
-    double speed;         /* m/s along it */
-    double energy_before; /* J, of the motion of both that met, */
-    double energy_after;  /* and after the cracks were paid for */
+    BrittleBody body;      /* stale from then on, if it broke */
+    BrittleBody hit_by;    /* all zeros: brittleDamage */
+    uint32_t step;         /* counted from 1 */
+    uint32_t outcome;      /* BRITTLE_BROKE... */
+    uint32_t fragments;    /* bodies that it became */
+    uint32_t dust_cells;   /* cells too small for that */
+    double dust_mass;      /* kg of them */
+    BrittleVec3 position;  /* of the blow, world */
+    BrittleVec3 normal;    /* from the body to what hit it, unit */
+    double speed;          /* m/s along it */
+    double effective_mass; /* kg, of the two there */
+    double energy_before;  /* J, of the motion of both that met, */
+    double energy_after;   /* and after the cracks were paid for */
     double crack_energy; /* J; of two that break each other the first tells what both have paid, and the other 0 of all three */
     double crack_area;   /* m2, of this body's cracks */
     double largest_mass; /* kg, of its fragments, */
@@ -549,8 +550,8 @@ BRITTLE_API BrittleResult brittleGetSurface(BrittleContext* context, BrittleWorl
                                             BrittleVertex* vertices, uint32_t capacity, uint32_t* count, uint32_t* outer);
 /* [queue] Those of several, in one reading of the device, as after a break: the vertices of all, in the order of `bodies`, of
  * body k counts[k] with outers[k] of its own surface first; *total of them. `counts` and `outers` have room for `body_count`
- * numbers, and are written, as *total is, where the vertices are too many for `capacity`: BUFFER_TOO_SMALL. The lists may be NULL
- * where body_count is 0. Errors: those of brittleGetSurface of any of them, and nothing is written then. */
+ * numbers, and are written, as *total is, where the vertices are too many for `capacity`: BUFFER_TOO_SMALL. The lists may be
+ * NULL where body_count is 0. Errors: those of brittleGetSurface of any of them, and nothing is written then. */
 BRITTLE_API BrittleResult brittleGetSurfaces(BrittleContext* context, BrittleWorld world, const BrittleBody* bodies,
                                              uint32_t body_count, BrittleVertex* vertices, uint32_t capacity, uint32_t* total,
                                              uint32_t* counts, uint32_t* outers);

@@ -55,9 +55,6 @@ uint sidesThatBreak(uvec4 ids, BlowRecord record) {
     return (a ? BREAKS_A : 0u) | (b ? BREAKS_B : 0u);
 }
 
-// The solver brakes bodies that would meet in the substep after the last: a blow is what happens by then.
-const float kAhead = 1.05; // of a substep
-
 // Where they meet, if they do so before the solver has a say: the middle of the points, as the bodies stand now.
 bool meets(uint pair, uvec4 ids, vec3 normal, out BlowRecord record) {
     Pair p = pairNow(pair, ids);
@@ -73,8 +70,9 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out BlowRecord record) {
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
     float now = dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), then = speedOfMeeting(now, separation, p, normal, gravity);
     float apart = max(separation, 0.0), mean = -0.5 * (now + then);
-    if (yield_ <= 0.0 || !(then < 0.0) || apart > mean * (duration + kAhead * gravity.w)) return false;
+    if (yield_ <= 0.0 || !(then < 0.0) || apart > mean * (duration + AHEAD_OF_STEP * gravity.w)) return false;
     record.blow = vec4(1.0 / yield_, -then, 0.5 * then * then / yield_, min(apart / (mean * duration), 1.0));
+    record.sides.y = floatBitsToUint(apart / (mean * duration));
     return true;
 }
 

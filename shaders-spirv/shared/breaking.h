@@ -61,12 +61,14 @@ struct Birth {
 // A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so
 // that who pays for its cracks is certain; the others wait for a step, as does what there is no room for.
 struct BlowRecord {
-    uvec4 sides; // BREAKS_*, 0 for what breaks nothing
+    uvec4 sides; // BREAKS_*, 0 for what breaks nothing; y: as the bits of a float, when they meet, in steps from the beginning of this one
     vec4 blow;   // effective mass, speed of meeting, its energy; w: share of the step that is over when they meet
     vec4 arm_a;  // of the middle of its points
     vec4 arm_b;
 };
 #define MOST_BREAKING 256 /* bodies in a step, as many as there are tiles */
+// The solver brakes bodies that would meet in the substep after the last: a blow is what happens by then.
+#define AHEAD_OF_STEP 1.05 /* of a substep */
 #define BREAKS_A 1
 #define BREAKS_B 2
 

@@ -258,6 +258,56 @@ TEST(BreakingWorld, EveryCrackIsPaidForByThePairHoweverManyOthersHitIt) {
     EXPECT_GT(too_dear, 0u) << "in none had others taken so much";
 }
 
+// A step is long enough for the ball to reach the wall, but it is stopped before: by the pane.
+TEST(BreakingWorld, WhatStandsBehindAPaneTakesNothingOfTheBlowThatBreaksIt) {
+    SceneDescription scene = sceneOf({ball({0.05, 0.03, 0.4}, "")}, false);
+    scene.effects = {"contacts", "impact_fracture", "events"};
+    scene.bodies[0].mass = 1;
+    scene.bodies[0].velocity = {0, 0, -10};
+    BodyDescription pane;
+    pane.shape.size = {0.6, 0.6, 0.008};
+    pane.material = "glass";
+    scene.bodies.push_back(pane);
+    for (const double gap : {0.001, 0.1})
+        for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
+            scene.step.dt = dt;
+            ColliderDescription wall;
+            wall.shape = {.kind = brittle::ShapeKind::Box, .size = {1, 1, 0.1}};
+            wall.place = {0, 0, -0.054 - gap};
+            scene.colliders = {wall};
+            const auto world = worldOf(scene);
+            const auto events = stepUntilItBreaks(*world, 20);
+            ASSERT_EQ(events.size(), 1u) << gap << " " << dt;
+            EXPECT_EQ(events[0].made.y, 0u) << "why it stays whole, at " << gap << " " << dt;
+            EXPECT_NEAR(events[0].energies.x, 50, 0.01);
+        }
+}
+
+// They would meet each other where the cube is.
+TEST(BreakingWorld, WhatIsHitFromSixSidesAtOnceBreaks) {
+    SceneDescription scene = sceneOf({}, false);
+    scene.effects = {"contacts", "impact_fracture", "events"};
+    BodyDescription cube;
+    cube.shape.size = {0.3, 0.3, 0.3};
+    cube.material = "concrete";
+    scene.bodies = {cube};
+    for (size_t k = 0; k < 6; ++k) {
+        BodyDescription shot = ball({0, 0, 0}, "");
+        shot.shape.radius = 0.04;
+        shot.mass = 3;
+        const double side = k % 2 == 0 ? 1 : -1;
+        shot.place[k / 2] = 0.4 * side;
+        shot.velocity[k / 2] = -20 * side;
+        scene.bodies.push_back(shot);
+    }
+    const auto world = worldOf(scene);
+    const auto events = stepUntilItBreaks(*world, 10);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].made.y, 0u);
+    EXPECT_GT(events[0].made.x, 30u);
+    EXPECT_NEAR(events[0].energies.x, 600, 1) << "no other ball has taken any of it";
+}
+
 // What stayed whole for want of room breaks once there is some: nothing is lost by the attempt.
 TEST(BreakingWorld, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
     brittle::WorldBudget budget;

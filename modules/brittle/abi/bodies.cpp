@@ -109,6 +109,7 @@ BrittleBreak breakOf(const HostedWorld& world, const gpu::BreakEvent& e) {
     b.position = positionOf(e);
     b.normal = vectorOf(e.along);
     b.speed = e.blow.y;
+    b.effective_mass = e.blow.x;
     b.energy_before = e.energies.x;
     b.energy_after = e.energies.y;
     b.crack_energy = e.energies.z;

@@ -72,6 +72,9 @@ public:
                      {world, s.now.contacts, p_.blows, p_.hardest, p_.chosen});
         s.record.run("hold_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
                      {world, s.now.contacts, s.b.bodies, p_.blows, p_.chosen, s.b.step.touches, s.b.step.shares});
+        s.record.run("leave_unmet", Length::counted(COUNT_STRUCK), find,
+                     {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.shares, p_.blows, p_.chosen,
+                      s.b.step.touches});
         if (struck) strikes_->recordChoice(s, p_);
         s.record.commands().endLabel();
     }

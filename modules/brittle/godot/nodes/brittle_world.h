@@ -50,6 +50,7 @@ private:
         Value body;
         const char* name;
         std::vector<Value> arguments; // of the body's own signal; the world's has the body before
+        bool is_the_worlds = true;    // its signal as well
     };
 
     static BrittleWorldDef madeToBeDrawn();
@@ -63,6 +64,8 @@ private:
     void hideBroken(const std::vector<bool>& is_there);
     std::vector<Emission> emissionsOf(const Report& report);
     void addEmissions(const BrittleBreak& event, std::vector<Emission>& emissions);
+    void addEmissions(const BrittleImpact& event, std::vector<Emission>& emissions);
+    int64_t copyOf(size_t link) const;
     bool emit(const std::vector<Emission>& emissions);
     void warnOfWhole(const BrittleBreak& event);
     size_t linkOf(uint64_t id) const;

@@ -47,6 +47,8 @@ void describeBreaking(ClassRecord& r) {
     numberProperty<W>(r, "debris_below", "0,1,0.001,or_greater,suffix:m", [](W& w) -> double& { return w.def.debris_below; });
     numberProperty<W>(r, "debris_after", "0,60,0.1,or_greater,suffix:s", [](W& w) -> double& { return w.def.debris_after; });
     numberProperty<W>(r, "debris_fade", "0,60,0.1,or_greater,suffix:s", [](W& w) -> double& { return w.def.debris_fade; });
+    numberProperty<W>(r, "impact_speed", "0.001,10,0.001,or_greater,suffix:m/s",
+                      [](W& w) -> double& { return w.def.impact_speed; });
     numberProperty<W>(r, "air_density", "0,10,0.001,or_greater,suffix:kg/m³",
                       [](W& w) -> double& { return w.def.air_density; });
     numberProperty<W>(r, "drag_coefficient", "0,5,0.01,or_greater", [](W& w) -> double& { return w.def.drag_coefficient; });

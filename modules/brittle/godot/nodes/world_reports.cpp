@@ -78,23 +78,43 @@ std::vector<WorldNode::Emission> WorldNode::emissionsOf(const Report& report) {
     std::vector<Emission> emissions;
     for (const BrittleBreak& event : report.breaks)
         addEmissions(event, emissions);
+    for (const BrittleImpact& event : report.impacts)
+        addEmissions(event, emissions);
     return emissions;
 }
 
-// A blow that breaks something, or would have, is an impact as well.
+int64_t WorldNode::copyOf(size_t link) const { return link == kNone ? 0 : static_cast<int64_t>(links_[link].copy); }
+
+// Of both that met; the world tells it once, of the first that is there.
+void WorldNode::addEmissions(const BrittleImpact& event, std::vector<Emission>& emissions) {
+    bool is_first = true;
+    for (size_t k = 0; k < 2; ++k) {
+        const size_t link = linkOf(event.bodies[k].id);
+        const Value body = nodeOf(link), by = nodeOf(linkOf(event.bodies[1 - k].id));
+        if (body.isNull()) continue;
+        const double side = k == 0 ? 1 : -1;
+        const BrittleVec3 normal = {side * event.normal.x, side * event.normal.y, side * event.normal.z};
+        emissions.push_back(
+            {body,
+             "impact",
+             {Value(toEngine(event.position)), Value(toEngine(normal)), event.speed, event.energy, by, copyOf(link)},
+             is_first});
+        is_first = false;
+    }
+}
+
+// A blow that breaks something is an impact as well; one that does not is told as such once it is solved.
 void WorldNode::addEmissions(const BrittleBreak& event, std::vector<Emission>& emissions) {
     const size_t link = linkOf(event.body.id);
     const Value body = nodeOf(link), by = nodeOf(linkOf(event.hit_by.id));
     const Value position(toEngine(event.position)), normal(toEngine(event.normal));
-    const auto copy = link == kNone ? int64_t{0} : static_cast<int64_t>(links_[link].copy);
-    emissions.push_back({body, "impact", {position, normal, event.speed, event.energy_before, by, copy}});
-    if (event.outcome == BRITTLE_BROKE)
-        emissions.push_back(
-            {body,
-             "fractured",
-             {position, normal, event.speed, event.crack_energy, static_cast<int64_t>(event.fragments), by, copy}});
-    else
-        warnOfWhole(event);
+    if (event.outcome != BRITTLE_BROKE) return warnOfWhole(event);
+    const double energy = 0.5 * event.effective_mass * event.speed * event.speed;
+    emissions.push_back({body, "impact", {position, normal, event.speed, energy, by, copyOf(link)}});
+    emissions.push_back(
+        {body,
+         "fractured",
+         {position, normal, event.speed, event.crack_energy, static_cast<int64_t>(event.fragments), by, copyOf(link)}});
 }
 
 // Once for each reason.
@@ -106,6 +126,8 @@ void WorldNode::warnOfWhole(const BrittleBreak& event) {
     if (event.outcome == BRITTLE_WHOLE_TOO_DEAR) why = "its cells have more faces between them than the blow could pay for";
     if (event.outcome == BRITTLE_WHOLE_ONE_PIECE) why = "all of it is one cell's";
     if (event.outcome == BRITTLE_WHOLE_TOO_LARGE) why = "no step has room for it; raise the budgets of breaking";
+    if (event.outcome == BRITTLE_WHOLE_NO_PAIRS)
+        why = "budget_pairs or budget_contacts has no room for what its fragments need";
     tellWarning(self().call("to_string").asString() + ": a body that was hit hard enough stays whole: " + why);
 }
 
@@ -118,6 +140,7 @@ bool WorldNode::emit(const std::vector<Emission>& emissions) {
         arguments.insert(arguments.end(), e.arguments.begin(), e.arguments.end());
         if (!e.body.isNull()) e.body.call("emit_signal", arguments);
         if (!goes_on()) return false;
+        if (!e.is_the_worlds) continue;
         arguments.insert(arguments.begin() + 1, e.body);
         self().call("emit_signal", arguments);
         if (!goes_on()) return false;

@@ -110,7 +110,8 @@ Report RunningWorld::look() { return told(); }
 Report RunningWorld::told() {
     Report report;
     try {
-        report.breaks = breaks();
+        report.breaks = heard(brittleGetBreaks);
+        report.impacts = heard(brittleGetImpacts);
         report.bodies = bodies();
         report.surfaces = newSurfaces(report.bodies);
     } catch (const Failure& failure) {
@@ -132,14 +133,15 @@ std::vector<BrittleBodyState> RunningWorld::bodies() {
     return states;
 }
 
-std::vector<BrittleBreak> RunningWorld::breaks() {
+template <class Event>
+std::vector<Event> RunningWorld::heard(BrittleResult (*get)(BrittleContext*, BrittleWorld, Event*, uint32_t, uint32_t*)) {
     constexpr uint32_t kAtATime = 64;
-    std::vector<BrittleBreak> all;
+    std::vector<Event> all;
     uint32_t told = hears_ ? kAtATime : 0;
     while (told == kAtATime) {
         const size_t before = all.size();
         all.resize(before + kAtATime);
-        shared_->must(brittleGetBreaks(shared_->context(), world_, all.data() + before, kAtATime, &told));
+        shared_->must(get(shared_->context(), world_, all.data() + before, kAtATime, &told));
         all.resize(before + told);
     }
     return all;

@@ -18,6 +18,7 @@ struct FragmentSurface {
 struct Report {
     std::vector<BrittleBodyState> bodies;
     std::vector<BrittleBreak> breaks;
+    std::vector<BrittleImpact> impacts;    // that broke nothing
     std::vector<FragmentSurface> surfaces; // of fragments that no report before has told of
     std::string warning;                   // what went wrong with the step, which was made nevertheless
     std::string failure;                   // why the step was not made; the rest is empty then
@@ -45,7 +46,9 @@ private:
     void add(const BodyPlan& body, const std::vector<BrittleMesh>& meshes, const std::vector<BrittleMaterial>& materials);
     Report told();
     std::vector<BrittleBodyState> bodies();
-    std::vector<BrittleBreak> breaks();
+    // All that its world has to tell of a kind, by brittleGetBreaks or brittleGetImpacts.
+    template <class Event>
+    std::vector<Event> heard(BrittleResult (*get)(BrittleContext*, BrittleWorld, Event*, uint32_t, uint32_t*));
     std::vector<FragmentSurface> newSurfaces(const std::vector<BrittleBodyState>& states);
     std::vector<FragmentSurface> surfacesOf(const std::vector<BrittleBody>& fragments);
 
