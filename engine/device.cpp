@@ -1,5 +1,7 @@
 #include "engine/device.h"
 
+#include "engine/loader_mutex.h"
+
 #include <cstdlib>
 #include <optional>
 
@@ -169,7 +171,10 @@ Result<void> Device::createLogical() {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     info.pEnabledFeatures = &enabled;
-    const VkResult made = instance_vk_.vkCreateDevice(physical_, &info, nullptr, &handle_);
+    const VkResult made = [&] {
+        const std::lock_guard lock(loaderMutex());
+        return instance_vk_.vkCreateDevice(physical_, &info, nullptr, &handle_);
+    }();
     if (made != VK_SUCCESS) return vulkanError("cannot open the device " + name(), made);
     loadDeviceTable(table_, instance_->handle(), instance_->getProcAddr(), handle_);
     table_.vkGetDeviceQueue(handle_, compute_.family, 0, &compute_.handle);
@@ -182,7 +187,9 @@ Device::~Device() {
     waitIdle();
     if (pipeline_cache_ != VK_NULL_HANDLE) table_.vkDestroyPipelineCache(handle_, pipeline_cache_, nullptr);
     memory_.reset();
-    if (!isForeign()) table_.vkDestroyDevice(handle_, nullptr);
+    if (isForeign()) return;
+    const std::lock_guard lock(loaderMutex());
+    table_.vkDestroyDevice(handle_, nullptr);
 }
 
 VkSubgroupFeatureFlags Device::subgroupOperations() const {

@@ -1,5 +1,7 @@
 #include "engine/instance.h"
 
+#include "engine/loader_mutex.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -64,9 +66,12 @@ Result<std::unique_ptr<Instance>> Instance::create() {
 
     std::unique_ptr<Instance> instance(new Instance);
     const auto create = globalFunction<PFN_vkCreateInstance>(get, "vkCreateInstance");
-    const VkResult made = create(&info, nullptr, &instance->handle_);
-    if (made != VK_SUCCESS) return vulkanError("cannot create a Vulkan instance", made);
-    keepDriversForLeakChecker(create, info);
+    {
+        const std::lock_guard lock(loaderMutex());
+        const VkResult made = create(&info, nullptr, &instance->handle_);
+        if (made != VK_SUCCESS) return vulkanError("cannot create a Vulkan instance", made);
+        keepDriversForLeakChecker(create, info);
+    }
     instance->get_ = get;
     instance->vk_ = loadInstanceFunctions(instance->handle_, get);
     if (debug) instance->listen();
@@ -75,7 +80,9 @@ Result<std::unique_ptr<Instance>> Instance::create() {
 
 Instance::~Instance() {
     if (messenger_ != VK_NULL_HANDLE) vk_.vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
-    if (handle_ != VK_NULL_HANDLE) vk_.vkDestroyInstance(handle_, nullptr);
+    if (handle_ == VK_NULL_HANDLE) return;
+    const std::lock_guard lock(loaderMutex());
+    vk_.vkDestroyInstance(handle_, nullptr);
 }
 
 bool gpuAssistedValidationIsOn() {

@@ -1,13 +1,10 @@
 #include "engine/instance_functions.h"
 
-#include <mutex>
+#include "engine/loader_mutex.h"
 
 namespace engine {
 
 namespace {
-
-// volk keeps functions in globals. They are written here and nowhere else, and read here alone.
-std::mutex volk_mutex;
 
 template <class Function>
 void load(Function& function, VkInstance instance, PFN_vkGetInstanceProcAddr get, const char* name) {
@@ -35,14 +32,19 @@ InstanceFunctions loadInstanceFunctions(VkInstance instance, PFN_vkGetInstancePr
     return f;
 }
 
+std::mutex& loaderMutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 PFN_vkGetInstanceProcAddr loaderFunction() {
-    const std::lock_guard lock(volk_mutex);
+    const std::lock_guard lock(loaderMutex());
     static const bool found = volkInitialize() == VK_SUCCESS; // volk never closes the loader again
     return found ? vkGetInstanceProcAddr : nullptr;
 }
 
 void loadDeviceTable(VolkDeviceTable& table, VkInstance instance, PFN_vkGetInstanceProcAddr get, VkDevice device) {
-    const std::lock_guard lock(volk_mutex);
+    const std::lock_guard lock(loaderMutex());
     const PFN_vkGetDeviceProcAddr before = vkGetDeviceProcAddr;
     load(vkGetDeviceProcAddr, instance, get, "vkGetDeviceProcAddr");
     volkLoadDeviceTable(&table, device);
