@@ -168,7 +168,7 @@ foreach(name IN ITEMS return_ranges take_ranges)
 endforeach()
 
 # Dynamics.
-foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
+foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts keep_pair_count begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
         order_adjacency order_islands prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)
     kernel(solver/${name}.comp)
 endforeach()

@@ -130,7 +130,7 @@ TEST(EffectGates, AnEffectThatIsOffHasNoPassesAndLoadsNoKernels) {
                "order_islands", "solve_islands", "bounce_islands", "time_rest"}},
              {Effect::Contacts,
               {"bound_pieces", "pair_few", "recall_contacts", "find_axes", "build_manifolds", "remember_contacts",
-               "prepare_contacts", "keep_impulses", "hold_back", "color_islands", "solve_islands"}}}) {
+               "keep_pair_count", "prepare_contacts", "keep_impulses", "hold_back", "color_islands", "solve_islands"}}}) {
         const StepPlan plan = planOf(without(effect));
         for (const std::string& kernel : kernels) {
             const bool wide = engine_test::device().subgroupSize() >= 32 && (has(all, kernel + "_wide"));

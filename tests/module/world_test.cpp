@@ -340,6 +340,20 @@ void expectNoRoom(World& world, std::string_view why) {
     EXPECT_EQ(hashOf(world), before);
 }
 
+TEST(World, GoesOnFromAStateOfBeforeItHadNoRoom) {
+    auto crowded = World::create(engine_test::device(), tower(5, 0.99), {}, {.pairs = 3}),
+         calm = World::create(engine_test::device(), tower(5, 3), {}, {.pairs = 3});
+    ASSERT_TRUE(crowded && calm);
+    const auto apart = (*calm)->save();
+    ASSERT_TRUE(apart);
+    expectNoRoom(**crowded, "finds 4 pairs");
+    const auto restored = (*crowded)->restore(*apart);
+    ASSERT_TRUE(restored) << restored.error().message;
+    run(**crowded, 5);
+    run(**calm, 5);
+    EXPECT_EQ(hashOf(**crowded), hashOf(**calm));
+}
+
 TEST(World, SaysWhatItHadNoRoomForAndDoesNotMakeTheStep) {
     const WorldContents contents = tower(5, 0.99);
     auto world = World::create(engine_test::device(), contents, {}, {.pairs = 3});
@@ -413,6 +427,20 @@ TEST(World, MakesRoomForMorePairsAndGoesOnAsIfItHadHadIt) {
         run(*world, 2);
     EXPECT_GT(countsOf(**grown).pairs, 4000u);
     EXPECT_EQ(hashOf(**grown), hashOf(**roomy));
+}
+
+// The last of them are on the device already by the time that the host learns that one before them did not fit.
+TEST(World, MakesRoomInTheMiddleOfManyStepsAsBetweenSingleOnes) {
+    const WorldContents contents = crowds();
+    const auto together = worldOf(contents), singly = worldOf(contents);
+    run(*together, 9);
+    uint32_t most = 0;
+    for (int k = 0; k < 9; ++k) {
+        run(*singly, 1);
+        most = std::max(most, countsOf(*singly).pairs);
+    }
+    EXPECT_GT(most, 4000u);
+    EXPECT_EQ(hashOf(*together), hashOf(*singly));
 }
 
 TEST(SmallWorld, RefusesBodiesThatAreNone) {

@@ -51,7 +51,7 @@ void recordMemory(const Step& s) {
     s.record.run("remember_contacts", kPairs, engine::NoPush{},
                  {s.record.counts(), b.recalled, b.fresh_slots, b.manifolds, s.last.contacts, s.b.bodies, s.b.shapes,
                   s.now.contacts, b.touches});
-    s.record.commands().copy(s.record.counts().sub(4 * COUNT_BOX_PAIRS, 4), engine::BufferView(s.now.count).sub(0, 4));
+    s.record.runGroups("keep_pair_count", s.record.groupsOf(COUNT_ONCE), engine::NoPush{}, {s.record.counts(), s.now.count});
 }
 
 void recordPieceBoxes(const Step& s) {

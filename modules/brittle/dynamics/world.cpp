@@ -276,13 +276,13 @@ public:
         if (!head) return head.error();
         if (auto room = growFor(*head); !room) return room;
         if (auto done = writeState(device_, state, stateViews()); !done) return done;
+        if (auto done = clearWord(STATUS_FAILED); !done) return done; // of a step that the state knows nothing of
         ahead_ = 0;
         strikes_.clear();
         heard_ = head->heard;
-        auto words = takeStock();
-        if (!words) return words.error();
         fragments_.forget(); // as many may have broken in another way
-        return failureOf(*words);
+        auto words = takeStock();
+        return words ? Result<void>() : words.error();
     }
 
     Result<uint64_t> hash() override {
@@ -489,12 +489,16 @@ private:
         return words;
     }
 
-    // That a body was stopped is told once.
-    Result<void> forget(uint32_t body) {
+    Result<void> clearWord(uint32_t of_counts) {
         engine::Commands commands(device_);
         if (auto begun = commands.begin(); !begun) return begun;
-        commands.fill(b_.counts.sub(4 * STATUS_STOPPED_BODY, 4), 0);
-        if (auto done = commands.submitAndWait(); !done) return done;
+        commands.fill(b_.counts.sub(uint64_t{4} * of_counts, 4), 0);
+        return commands.submitAndWait();
+    }
+
+    // That a body was stopped is told once.
+    Result<void> forget(uint32_t body) {
+        if (auto done = clearWord(STATUS_STOPPED_BODY); !done) return done;
         return Error{ErrorCode::BadInput, "by step " + std::to_string(made_) + " the motion of body " +
                                               std::to_string(bodyAsAdded(body)) +
                                               " is beyond what floats hold; it was stopped where it was. Smaller steps help"};
