@@ -51,13 +51,13 @@ layout(push_constant) uniform Push {
 #include "lib/takes_part.glsl"
 
 const float kForEver = 3e38; // s
-const float kSweepAhead = 1.25, kBoxOfCell = 1.6, kContactsOfOne = 16.0;
 
 shared uint flags[GROUP_SIZE];
 shared uint listed[MOST_BREAKING];
 shared uint sites_of[MOST_BREAKING];
 shared float paid_of[MOST_BREAKING];
 shared uvec2 pairs_of[MOST_BREAKING];
+shared uvec2 neighbors_of[MOST_BREAKING]; // pairs that each is in; those of them with another that breaks
 shared uint admitted[MOST_BREAKING];
 shared float reach_of[MOST_BREAKING];
 shared uint found, reach_sum;
@@ -223,40 +223,15 @@ void countFragments(uint k, uint body) {
     sites_of[k] = min(paid, most_fragments);
 }
 
-// Along the axes of the world.
-vec3 extentOf(uint body) {
-    mat3 axes = matrixOf(turnAfter(bodies[body].turn, breakable[body].turn));
-    vec3 size = breakable[body].high.xyz - breakable[body].low.xyz;
-    return abs(axes[0]) * size.x + abs(axes[1]) * size.y + abs(axes[2]) * size.z;
-}
-
-// To the furthest that any place of it gets in the step to come, as boxes are made.
-vec3 sweepOf(uint body) {
-    float turning = length(bodies[body].spin.xyz) * shapes[body].inverse_inertia[2].w;
-    return kSweepAhead * duration * (abs(bodies[body].velocity.xyz) + turning);
-}
-
-// How many pairs fragments are expected to have among themselves in the step after, and how many of these touch. Of cells that are
-// alike and lie evenly, boxes meet in the share of pairs that this product is; cells that crowd about a blow have up to 1.5 times
-// as many (measured: 50, 256, 800 fragments of balls and panes at 20 m/s), so that twice as many are reckoned with.
-uvec2 pairsFor(uint k, uint body) {
-    float n = float(sites_of[k]), all_ = 0.5 * n * (n - 1.0);
-    float cell = kBoxOfCell * pow(breakable[body].form.x / n, 1.0 / 3.0);
-    vec3 share = min(2.0 * (cell + margin + sweepOf(body)) / max(extentOf(body), 1e-9), 1.0);
-    float pairs = min(2.0 * share.x * share.y * share.z, 1.0) * all_;
-    return uvec2(ceil(vec2(pairs, min(pairs, kContactsOfOne * n))));
-}
-
-uvec2 roomForPairs() {
-    uvec2 most = uvec2(most_pairs, most_contacts), now = uvec2(world_counts[COUNT_BOX_PAIRS], world_counts[COUNT_CONTACTS]);
-    return most - min(most, now);
-}
+#include "lib/expected_pairs.glsl"
 
 // Of what there is no room for, one a step is told: it stands behind what breaks. What no step has room for never breaks.
 void tellUnfit(uint k, uint why, uint at, uvec2 room) {
-    breakable[listed[k]].form.w = why == WHOLE_TOO_LARGE ? kForEver : float(steps[STEPS_MADE] + 1u) * duration + pause;
+    bool never = why == WHOLE_TOO_LARGE;
+    breakable[listed[k]].form.w = never ? kForEver : float(steps[STEPS_MADE] + 1u) * duration + pause;
     admitted[k] = at;
-    lacked = pairs_of[k] - min(pairs_of[k], room);
+    uvec2 asked = never ? uvec2(trianglesOf(listed[k]), sites_of[k]) : pairs_of[k];
+    lacked = asked - min(asked, never ? uvec2(most_triangles, most_sites) : room);
     counts[STATUS_UNFIT] = why;
 }
 
@@ -379,8 +354,12 @@ void main() {
     }
     for (uint k = lane; k < found; k += GROUP_SIZE) {
         countFragments(k, listed[k]);
-        pairs_of[k] = pairsFor(k, listed[k]);
+        neighbors_of[k] = uvec2(0u);
     }
+    barrier();
+    if (isRoomForPairsFixed()) countNeighbors(lane);
+    barrier();
+    for (uint k = lane; k < found; k += GROUP_SIZE) pairs_of[k] = pairsFor(k, listed[k]);
     barrier();
     if (lane == 0u) admit();
     barrier();

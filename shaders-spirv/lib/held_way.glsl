@@ -6,6 +6,7 @@
 // and the rest of the time is lost to them.
 #include "lib/quaternion.glsl"
 #include "shared/solver.h"
+#include "shared/sweep.h"
 
 float reachOf(BodyShape shape) { return shape.inverse_inertia[2].w; }
 
@@ -14,13 +15,10 @@ float thicknessOf(BodyShape shape) { return max(uintBitsToFloat(shape.pieces.z),
 
 vec3 wayAhead(vec3 velocity, vec4 gravity) { return gravity.w * (velocity + gravity.w * gravity.xyz); }
 
-// A body may be faster by the end of a step than it was (kSweepAhead in stage_contacts.cpp).
-const float kAhead = 1.25;
-
 // `gravity.w`: length of the step.
 float shareOfWay(vec3 moved, vec3 velocity, vec4 gravity, float thickness) {
     vec3 ahead = wayAhead(velocity, gravity);
-    float along = clamp(dot(moved, ahead) / max(dot(ahead, ahead), 1e-37), 0.0, kAhead);
+    float along = clamp(dot(moved, ahead) / max(dot(ahead, ahead), 1e-37), 0.0, SWEEP_AHEAD);
     float aside = length(moved - along * ahead);
     return aside > thickness ? thickness / aside : 1.0;
 }

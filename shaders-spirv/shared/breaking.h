@@ -79,7 +79,7 @@ struct BrokenBody {
     vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
     vec4 along; // normal, from the body to the other
     vec4 share; // J, of the blow's energy that this body may spend, all of it; fragments that it pays for, room or no room; of
-                // WHOLE_NO_PAIRS pairs and contacts that there is no room for
+                // WHOLE_NO_PAIRS pairs and contacts, of WHOLE_TOO_LARGE triangles and sites that there is no room for
 };
 
 // What a blow has cost, in the order of BrokenBodies; with the first of two that break each other, for both.
@@ -103,7 +103,7 @@ struct BreakEvent {
                    // it pays for its cracks too; of WHOLE_FAILED the count of fracture
                    // that there was no room for and how much it would have been, 0 and 0 where it was something else
     uvec4 lacked;  // of WHOLE_NO_ROOM: bodies, pieces, faces of hulls, triangles that no range was found for; of WHOLE_NO_PAIRS:
-                   // pairs, contacts
+                   // pairs, contacts; of WHOLE_TOO_LARGE triangles and sites of a step
     ivec4 sector;  // of the place of the blow; w: cells that were too small to be bodies
     vec4 offset;   // w: kg of these cells
     vec4 along;    // normal, from the body to the other; w: fragments that the blow pays for, more than there are sites for

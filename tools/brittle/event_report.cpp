@@ -1,8 +1,8 @@
 #include "tools/brittle/event_report.h"
 
 #include "modules/brittle/dynamics/count_names.h"
+#include "modules/brittle/dynamics/sector_place.h"
 #include "modules/brittle/mesh/format.h"
-#include "shaders-spirv/shared/body.h"
 #include "shaders-spirv/shared/breaking.h"
 #include "tools/brittle/body_cast.h"
 
@@ -23,7 +23,8 @@ constexpr const char* kWhy[] = {"",
                                 "the cutting failed",
                                 "too large for a step",
                                 "no room for pairs"};
-constexpr const char *kPools[] = {"bodies", "pieces", "faces", "triangles"}, *kLists[] = {"pairs", "contacts", "", ""};
+constexpr const char *kPools[] = {"bodies", "pieces", "faces", "triangles"}, *kLists[] = {"pairs", "contacts", "", ""},
+                     *kOfAStep[] = {"breaking_triangles", "breaking_sites", "", ""};
 
 struct Who {
     uint32_t slot = 0, born = 0, origin = 0;
@@ -48,19 +49,12 @@ Json materialOf(const Who& who, const EventReport& report) {
 
 const char* whyOf(const gpu::BreakEvent& event) { return kWhy[std::min<size_t>(event.made.y, std::size(kWhy) - 1)]; }
 
-template <class Event>
-std::array<double, 3> placeOf(const Event& event) {
-    const auto along = [](int32_t sector, float offset) { return double{SECTOR_EDGE} * sector + double{offset}; };
-    return {along(event.sector.x, event.offset.x), along(event.sector.y, event.offset.y),
-            along(event.sector.z, event.offset.z)};
-}
-
 std::array<double, 3> normalOf(const gpu::vec4& along) { return {along.x, along.y, along.z}; }
 
 // What there was none left of, and how much of it was wanted.
 std::vector<std::pair<std::string, uint32_t>> lackedBy(const gpu::BreakEvent& event) {
     if (event.made.y == WHOLE_FAILED && event.made.w != 0) return {{brittle::nameOfFractureCount(event.made.z), event.made.w}};
-    const auto& names = event.made.y == WHOLE_NO_PAIRS ? kLists : kPools;
+    const auto& names = event.made.y == WHOLE_NO_PAIRS ? kLists : event.made.y == WHOLE_TOO_LARGE ? kOfAStep : kPools;
     const uint32_t lacked[] = {event.lacked.x, event.lacked.y, event.lacked.z, event.lacked.w};
     std::vector<std::pair<std::string, uint32_t>> pools;
     for (size_t k = 0; k < std::size(kPools); ++k)
@@ -90,7 +84,7 @@ Json toJson(const gpu::BreakEvent& event, const EventReport& report) {
                  {"body", nameOf(struckOf(event), report)},
                  {"hit_by", nameOf(strikerOf(event), report)},
                  {"material", materialOf(struckOf(event), report)},
-                 {"place", placeOf(event)},
+                 {"place", brittle::placeOf(event.sector, event.offset)},
                  {"normal", normalOf(event.along)},
                  {"effective_mass", event.blow.x},
                  {"speed", event.blow.y},
@@ -111,7 +105,7 @@ Json toJson(const gpu::ImpactEvent& event, const EventReport& report) {
             {"seconds", event.what.x * report.dt},
             {"bodies", {nameOf(firstOf(event), report), nameOf(secondOf(event), report)}},
             {"materials", {materialOf(firstOf(event), report), materialOf(secondOf(event), report)}},
-            {"place", placeOf(event)},
+            {"place", brittle::placeOf(event.sector, event.offset)},
             {"normal", normalOf(event.along)},
             {"effective_mass", event.measures.x},
             {"speed", event.measures.y},

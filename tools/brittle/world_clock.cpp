@@ -1,5 +1,7 @@
 #include "tools/brittle/world_clock.h"
 
+#include "modules/brittle/dynamics/sector_place.h"
+#include "modules/brittle/mesh/vector_math.h"
 #include "tools/brittle/progress.h"
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 namespace cli {
 namespace {
 
+using brittle::operator+;
 using engine::Result;
 
 constexpr double kOnStep = 1e-6; // of a step: so near to one a moment is on it
@@ -17,13 +20,8 @@ constexpr double kOnStep = 1e-6; // of a step: so near to one a moment is on it
 std::vector<Speck> specksOf(const std::vector<gpu::DustParticle>& dust, double later) {
     std::vector<Speck> specks;
     for (const gpu::DustParticle& p : dust) {
-        const auto along = [&](int sector, float offset, float velocity) {
-            return double{SECTOR_EDGE} * sector + double{offset} + later * double{velocity};
-        };
-        specks.push_back({{along(p.sector.x, p.place.x, p.velocity.x), along(p.sector.y, p.place.y, p.velocity.y),
-                           along(p.sector.z, p.place.z, p.velocity.z)},
-                          double{p.place.w},
-                          p.birth.y});
+        const brittle::Double3 way = {later * p.velocity.x, later * p.velocity.y, later * p.velocity.z};
+        specks.push_back({brittle::placeOf(p.sector, p.place) + way, double{p.place.w}, p.birth.y});
     }
     return specks;
 }

@@ -91,74 +91,6 @@ void handOver(const std::vector<T>& list, T* room, uint32_t capacity, uint32_t& 
                       "there is room for " + std::to_string(capacity) + " of " + std::to_string(count));
 }
 
-template <class Event>
-BrittleVec3 positionOf(const Event& e) {
-    const double edge = SECTOR_EDGE;
-    return {edge * e.sector.x + e.offset.x, edge * e.sector.y + e.offset.y, edge * e.sector.z + e.offset.z};
-}
-
-BrittleBreak breakOf(const HostedWorld& world, const gpu::BreakEvent& e) {
-    BrittleBreak b = {};
-    b.body = world.bodyId(e.what.y, e.born.x);
-    if (e.what.z != NO_INDEX) b.hit_by = world.bodyId(e.what.z, e.born.y);
-    b.step = e.what.x;
-    b.outcome = e.made.y;
-    b.fragments = e.made.y == 0 ? e.made.x : 0;
-    b.dust_cells = static_cast<uint32_t>(e.sector.w);
-    b.dust_mass = e.offset.w;
-    b.position = positionOf(e);
-    b.normal = vectorOf(e.along);
-    b.speed = e.blow.y;
-    b.effective_mass = e.blow.x;
-    b.energy_before = e.energies.x;
-    b.energy_after = e.energies.y;
-    b.crack_energy = e.energies.z;
-    b.crack_area = e.energies.w;
-    b.largest_mass = e.sizes.x;
-    b.smallest_mass = e.sizes.y;
-    b.origin = world.bodyId(e.born.z, 0);
-    b.material = world.materialOf(e.born.z);
-    return b;
-}
-
-BrittleImpact impactOf(const HostedWorld& world, const gpu::ImpactEvent& e) {
-    BrittleImpact i = {};
-    const uint32_t slots[] = {e.what.y, e.what.z}, born[] = {e.born.x, e.born.y}, origins[] = {e.born.z, e.born.w};
-    for (size_t k = 0; k < 2; ++k) {
-        i.bodies[k] = world.bodyId(slots[k], born[k]);
-        i.origins[k] = world.bodyId(origins[k], 0);
-        i.materials[k] = world.materialOf(origins[k]);
-    }
-    i.step = e.what.x;
-    i.points = e.what.w;
-    i.position = positionOf(e);
-    i.normal = vectorOf(e.along);
-    i.effective_mass = e.measures.x;
-    i.speed = e.measures.y;
-    i.energy = e.measures.z;
-    i.impulse = e.measures.w;
-    return i;
-}
-
-// The oldest that there is room for; the others go on waiting.
-template <class Event, class Told>
-void tell(const HostedWorld& world, HostedWorld::Waiting<Event>& waiting, Told (*told)(const HostedWorld&, const Event&),
-          Told* room, uint32_t capacity, uint32_t& count) {
-    count = static_cast<uint32_t>(std::min<size_t>(waiting.events.size(), capacity));
-    for (uint32_t k = 0; k < count; ++k)
-        room[k] = told(world, waiting.events[k]);
-    waiting.events.erase(waiting.events.begin(), waiting.events.begin() + count);
-}
-
-// Refuses what nobody can be told.
-template <class Told>
-void needEvents(HostedWorld& w, Told* room, const char* what, uint32_t capacity) {
-    if (capacity > 0) needed(room, what);
-    static_cast<void>(w.running());
-    if (std::ranges::find(w.scene.effects, nameOf(brittle::Effect::Events)) == w.scene.effects.end())
-        throw Refusal(BRITTLE_BAD_VALUE, "the world has not the effect BRITTLE_EFFECT_EVENTS");
-}
-
 // Of fragments all at once, since the device is asked for them.
 std::vector<brittle::SurfaceMesh> surfacesIn(HostedWorld& world, const Inhabitants& inhabitants,
                                              const std::vector<Named>& named) {
@@ -218,28 +150,6 @@ BrittleResult brittleGetBody(BrittleContext* context, BrittleWorld world, Brittl
         static_cast<void>(w.running());
         const Named named = w.named(body);
         out = Inhabitants(w).one(named);
-    });
-}
-
-BrittleResult brittleGetBreaks(BrittleContext* context, BrittleWorld world, BrittleBreak* breaks, uint32_t capacity,
-                               uint32_t* count) {
-    return bounded(context, [&](BrittleContext& c) {
-        HostedWorld& w = c.worlds.at(world.id);
-        uint32_t& told = needed(count, "count");
-        told = 0;
-        needEvents(w, breaks, "breaks", capacity);
-        tell(w, w.hearBreaks(), breakOf, breaks, capacity, told);
-    });
-}
-
-BrittleResult brittleGetImpacts(BrittleContext* context, BrittleWorld world, BrittleImpact* impacts, uint32_t capacity,
-                                uint32_t* count) {
-    return bounded(context, [&](BrittleContext& c) {
-        HostedWorld& w = c.worlds.at(world.id);
-        uint32_t& told = needed(count, "count");
-        told = 0;
-        needEvents(w, impacts, "impacts", capacity);
-        tell(w, w.hearImpacts(), impactOf, impacts, capacity, told);
     });
 }
 

@@ -90,6 +90,11 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     room.step_triangles = chosen(budget.step_triangles, std::max(kStepTriangles, 2 * largestSurface(contents)));
     room.step_sites = chosen(budget.step_sites, kStepSites);
     room.most_fragments = std::min(chosen(budget.most_fragments, kFragmentsOfOne), room.step_sites);
+    if (room.most_fragments < 2)
+        return Error{ErrorCode::BadInput,
+                     std::string("a budget of one ") +
+                         (room.step_sites < 2 ? "site for all that breaks in a step" : "fragment for a body") +
+                         ": what breaks has two fragments at least; give 2 or more, or 0 for the default"};
     room.particles = chosen(budget.particles, kParticles);
     room.bodies = static_cast<uint32_t>(contents.bodies.size());
     room.pieces = static_cast<uint32_t>(contents.pieces.size());

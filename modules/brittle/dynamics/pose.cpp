@@ -1,5 +1,6 @@
 #include "modules/brittle/dynamics/pose.h"
 
+#include "modules/brittle/dynamics/sector_place.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <Eigen/Geometry>
@@ -13,11 +14,6 @@ namespace {
 constexpr double kOriginStep = 1024; // m
 
 Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
-
-Double3 placeOf(const gpu::BodyState& body) {
-    const double edge = SECTOR_EDGE;
-    return Double3{edge * body.sector.x, edge * body.sector.y, edge * body.sector.z} + xyz(body.offset);
-}
 
 Eigen::Quaterniond rotation(const Turn& t) { return Eigen::Quaterniond(t[3], t[0], t[1], t[2]).normalized(); }
 
@@ -35,7 +31,7 @@ Double3 turnedBack(const Turn& turn, const Double3& v) { return turned(rotation(
 
 Pose poseOf(const gpu::BodyState& body) {
     const gpu::vec4& q = body.turn;
-    return {placeOf(body), turnOf(rotation({q.x, q.y, q.z, q.w}))};
+    return {placeOf(body.sector, body.offset), turnOf(rotation({q.x, q.y, q.z, q.w}))};
 }
 
 Pose between(const Pose& a, const Pose& b, double share) {
@@ -62,7 +58,7 @@ double kineticEnergyOf(std::span<const gpu::BodyState> bodies) {
 Double3 originOf(std::span<const gpu::BodyState> bodies) {
     Box box;
     for (const gpu::BodyState& body : bodies)
-        if (body.offset.w > 0) box.grow(placeOf(body));
+        if (body.offset.w > 0) box.grow(placeOf(body.sector, body.offset));
     Double3 origin = {0, 0, 0};
     if (box.lower[0] > box.upper[0]) return origin;
     for (size_t k = 0; k < 3; ++k)

@@ -25,4 +25,9 @@ inline SectorPlace inSectors(const Double3& place) {
     return result;
 }
 
+inline Double3 placeOf(const gpu::ivec4& sector, const gpu::vec4& offset) {
+    const double edge = SECTOR_EDGE;
+    return {edge * sector.x + offset.x, edge * sector.y + offset.y, edge * sector.z + offset.z};
+}
+
 } // namespace brittle

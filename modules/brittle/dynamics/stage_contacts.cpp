@@ -1,14 +1,14 @@
 // Pairs of pieces whose boxes meet, the points where they touch, and what is remembered of them from step to step.
 #include "modules/brittle/dynamics/step.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "shaders-spirv/shared/sweep.h"
 
 namespace brittle {
 namespace {
 
 constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
-constexpr double kSweepAhead = 1.25; // a body may be faster by the end of a step than it is now
 
-float sweptFor(const Step& s) { return static_cast<float>(kSweepAhead * s.settings.dt); }
+float sweptFor(const Step& s) { return static_cast<float>(SWEEP_AHEAD * s.settings.dt); }
 
 BroadPhase broadPhaseOf(const Step& s) {
     const StepBuffers& b = s.b.step;

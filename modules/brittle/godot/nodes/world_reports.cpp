@@ -2,7 +2,28 @@
 #include "modules/brittle/godot/interface/messages.h"
 #include "modules/brittle/godot/nodes/brittle_world.h"
 
+#include <string>
+#include <utility>
+
 namespace brittle_godot {
+namespace {
+
+// By the names of the properties that can be raised.
+std::string lackedIn(const BrittleBudget& lacked) {
+    const std::pair<const char*, uint32_t> budgets[] = {{"pairs", lacked.pairs},
+                                                        {"contacts", lacked.contacts},
+                                                        {"fragments", lacked.fragments},
+                                                        {"fragment_faces", lacked.fragment_faces},
+                                                        {"fragment_triangles", lacked.fragment_triangles},
+                                                        {"breaking_triangles", lacked.breaking_triangles},
+                                                        {"breaking_sites", lacked.breaking_sites}};
+    std::string text;
+    for (const auto& [name, amount] : budgets)
+        if (amount > 0) text += std::string("; budget_") + name + " lacks " + std::to_string(amount);
+    return text;
+}
+
+} // namespace
 
 // Who is meant by events is looked up before what has broken is forgotten, and said when all is in place.
 bool WorldNode::takeIn(const Report& report) {
@@ -121,14 +142,14 @@ void WorldNode::addEmissions(const BrittleBreak& event, std::vector<Emission>& e
 void WorldNode::warnOfWhole(const BrittleBreak& event) {
     if ((told_outcomes_ & 1u << event.outcome) != 0) return;
     told_outcomes_ |= 1u << event.outcome;
-    const char* why = "it could not be cut, or the budget of a step was too small";
-    if (event.outcome == BRITTLE_WHOLE_NO_ROOM) why = "budget_fragments is used up";
+    std::string why = "it could not be cut, or the budget of a step was too small";
+    if (event.outcome == BRITTLE_WHOLE_NO_ROOM) why = "there is no room for its fragments";
     if (event.outcome == BRITTLE_WHOLE_TOO_DEAR) why = "its cells have more faces between them than the blow could pay for";
     if (event.outcome == BRITTLE_WHOLE_ONE_PIECE) why = "all of it is one cell's";
-    if (event.outcome == BRITTLE_WHOLE_TOO_LARGE) why = "no step has room for it; raise the budgets of breaking";
-    if (event.outcome == BRITTLE_WHOLE_NO_PAIRS)
-        why = "budget_pairs or budget_contacts has no room for what its fragments need";
-    tellWarning(self().call("to_string").asString() + ": a body that was hit hard enough stays whole: " + why);
+    if (event.outcome == BRITTLE_WHOLE_TOO_LARGE) why = "no step has room for it";
+    if (event.outcome == BRITTLE_WHOLE_NO_PAIRS) why = "there is no room for the pairs and contacts that its fragments need";
+    tellWarning(self().call("to_string").asString() + ": a body that was hit hard enough stays whole: " + why +
+                lackedIn(event.lacked));
 }
 
 bool WorldNode::emit(const std::vector<Emission>& emissions) {

@@ -1,0 +1,162 @@
+// Worlds in which things break with too little room for it: they go on, and the host hears what there should have been more of.
+#include "modules/brittle/dynamics/scene_contents.h"
+#include "modules/brittle/dynamics/scene_settings.h"
+#include "tests/engine/test_device.h"
+#include "tests/module/breaking_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace breaking_scenes;
+using brittle::BodyDescription, brittle::SceneDescription;
+
+// What stayed whole for want of room breaks once there is some: nothing is lost by the attempt.
+TEST(BreakingBudgets, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
+    brittle::WorldBudget budget;
+    budget.breaking.fragments = 200;
+    budget.breaking.most_fragments = 128;
+    const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass"), ball({1, 3, 0}, "glass")}), budget);
+    const double mass = massOf(presentBodies(*world));
+    const auto events = stepUntilItBreaks(*world, 60);
+    ASSERT_EQ(events.size(), 2u);
+    EXPECT_GT(events[0].made.x, 100u);
+    EXPECT_EQ(events[1].made.x, 0u);
+    EXPECT_EQ(events[1].made.y, uint32_t{WHOLE_NO_ROOM});
+    EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-6 * mass);
+}
+
+struct Outcomes {
+    uint32_t broke = 0, refused = 0;
+};
+
+// Steps with room for so many pairs or contacts, which end nothing: what would need more stays whole, and the host hears of it.
+void stepWithRoomFor(uint32_t room, bool of_contacts, const SceneDescription& scene, Outcomes& outcomes) {
+    brittle::WorldBudget budget;
+    (of_contacts ? budget.contacts : budget.pairs) = room;
+    const auto world = worldOf(scene, budget);
+    const double mass = massOf(presentBodies(*world));
+    double dust = 0;
+    for (uint32_t k = 0; k < 60; ++k) {
+        const auto made = world->step();
+        ASSERT_TRUE(made) << room << (of_contacts ? " contacts: " : " pairs: ") << made.error().message;
+        const auto breaks = world->breaks();
+        for (const gpu::BreakEvent& event : breaks->events) {
+            dust += double{event.offset.w};
+            (event.made.y == 0 ? outcomes.broke : outcomes.refused)++;
+            if (event.made.y == 0) continue;
+            EXPECT_EQ(event.made.y, uint32_t{WHOLE_NO_PAIRS});
+            EXPECT_GT(of_contacts ? event.lacked.y : event.lacked.x, 0u);
+        }
+    }
+    EXPECT_NEAR(massOf(presentBodies(*world)) + dust, mass, 1e-5 * mass);
+}
+
+TEST(BreakingBudgets, NoBudgetOfPairsOrContactsEndsIt) {
+    auto fast = ball({0, 0.5, 0}, "glass"), other = ball({1, 0.6, 0}, "concrete");
+    fast.velocity = other.velocity = {0, -15, 0};
+    const SceneDescription scene = sceneOf({fast, other});
+    Outcomes outcomes;
+    for (const bool of_contacts : {false, true})
+        for (const uint32_t room : {8u, 100u, 500u, 2000u, 6000u, 12000u, 20000u, 40000u})
+            stepWithRoomFor(room, of_contacts, scene, outcomes);
+    EXPECT_GE(outcomes.broke, 8u);
+    EXPECT_GE(outcomes.refused, 8u);
+}
+
+// A ball that flies into another on a bed of blocks: of its fragments each may be near any of them.
+TEST(BreakingBudgets, NoBudgetOfPairsEndsItAmongManyNeighbors) {
+    auto fast = ball({0, 0.62, 0}, "glass"), struck = ball({0, 0.4, 0}, "glass");
+    fast.velocity = {0, -15, 0};
+    std::vector<BodyDescription> bodies = {fast, struck};
+    for (int k = 0; k < 25; ++k) {
+        BodyDescription& block = bodies.emplace_back();
+        block.shape.size = {0.08, 0.25, 0.08};
+        block.place = {0.08 * (k % 5 - 2), 0.126, 0.08 * (k / 5 - 2)};
+    }
+    const SceneDescription scene = sceneOf(std::move(bodies));
+    Outcomes outcomes;
+    for (const uint32_t room : {200u, 1000u, 4000u, 16000u, 64000u, 200000u})
+        stepWithRoomFor(room, false, scene, outcomes);
+    EXPECT_GE(outcomes.broke, 2u);
+    EXPECT_GE(outcomes.refused, 4u);
+}
+
+TEST(BreakingBudgets, WhatNoStepHasRoomForSaysWhichBudgetLacksHowMuch) {
+    brittle::WorldBudget budget;
+    budget.breaking.step_triangles = 10;
+    const SceneDescription scene = sceneOf({ball({0, 3, 0}, "glass")});
+    const auto world = worldOf(scene, budget);
+    const auto events = stepUntilItBreaks(*world, 60);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].made.y, uint32_t{WHOLE_TOO_LARGE});
+    const auto surface = brittle::contentsOf(scene, {}, nullptr)->breakable.at(0).surface;
+    EXPECT_EQ(events[0].lacked.x, (surface.y + surface.z) / 3 - 10);
+    EXPECT_EQ(events[0].lacked.y, 0u);
+}
+
+TEST(BreakingBudgets, BudgetsOfOneFragmentAreRefused) {
+    const SceneDescription scene = sceneOf({ball({0, 3, 0}, "glass")});
+    for (const auto budget_of : {&brittle::BreakingBudget::most_fragments, &brittle::BreakingBudget::step_sites}) {
+        brittle::WorldBudget budget;
+        budget.breaking.*budget_of = 1;
+        const auto refused = brittle::World::create(engine_test::device(), *brittle::contentsOf(scene, {}, nullptr),
+                                                    *brittle::settingsOf(scene), budget);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, engine::ErrorCode::BadInput);
+        EXPECT_NE(refused.error().message.find("a budget of one"), std::string::npos) << refused.error().message;
+    }
+}
+
+TEST(BreakingBudgets, MoreFragmentsThanPoolsHoldAreRefusedByName) {
+    const auto create = [](uint32_t fragments) {
+        const SceneDescription scene = sceneOf({ball({0, 1, 0}, "glass")});
+        brittle::WorldBudget budget;
+        budget.breaking.fragments = fragments;
+        return brittle::World::create(engine_test::device(), *brittle::contentsOf(scene, {}, nullptr),
+                                      *brittle::settingsOf(scene), budget);
+    };
+    EXPECT_TRUE(create(4000));
+    const auto refused = create(5000);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, engine::ErrorCode::Capacity);
+    EXPECT_NE(refused.error().message.find("a budget of 5000 fragments"), std::string::npos) << refused.error().message;
+    EXPECT_NE(refused.error().message.find("at most"), std::string::npos);
+}
+
+// Glass that breaks when it lands, and balls of something else that land on another part of the floor, one after the other.
+SceneDescription landing() {
+    std::vector<BodyDescription> bodies = {ball({0, 2, 0}, "glass")};
+    for (int k = 1; k <= 12; ++k)
+        bodies.push_back(ball({2.0 * k, 1.9 + 0.02 * k, 0}, ""));
+    return sceneOf(std::move(bodies));
+}
+
+TEST(BreakingBudgets, AStepThatThereIsNoRoomForBreaksNothing) {
+    const auto ample = worldOf(landing());
+    std::vector<uint32_t> contacts; // of each step until it breaks
+    while (ample->counts()->broken == 0 && contacts.size() < 60) {
+        step(*ample);
+        contacts.push_back(ample->counts()->contacts);
+    }
+    const auto steps = static_cast<uint32_t>(contacts.size()) - 1;
+    ASSERT_GT(contacts[steps], contacts[steps - 1]) << "something else has to land in that step";
+    const auto small = worldOf(landing(), {.contacts = contacts[steps] - 1});
+    step(*small, steps);
+    const auto before = small->hash();
+    const auto lacking = small->step();
+    ASSERT_FALSE(lacking);
+    EXPECT_EQ(lacking.error().code, engine::ErrorCode::Capacity);
+    EXPECT_EQ(*small->hash(), *before);
+    EXPECT_TRUE(small->breaks()->events.empty());
+    const auto state = small->save();
+    const auto other = worldOf(landing());
+    ASSERT_TRUE(other->restore(*state));
+    step(*other);
+    EXPECT_EQ(*other->hash(), *ample->hash());
+    step(*other, 30);
+    step(*ample, 30);
+    EXPECT_EQ(*other->hash(), *ample->hash());
+}
+
+} // namespace
