@@ -445,7 +445,7 @@ typedef struct BrittleBreak {
     double smallest_mass;     /* and of the smallest that is a body */
     BrittleBody origin;       /* what was added and `body` is a part of: `body` itself, if it is no fragment */
     BrittleMaterial material; /* of all of it */
-    BrittleBudget lacked;     /* of one that stayed whole for want of room: how much more of what there should have been, else 0 */
+    BrittleBudget lacked; /* of one that stayed whole for want of room: how much more of what there should have been, else 0 */
 } BrittleBreak;
 
 /* Two bodies that met and did not break of it. */

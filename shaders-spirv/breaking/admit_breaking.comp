@@ -100,7 +100,7 @@ void listBroken(uint lane) {
 BlowRecord blowOf(uint body) {
     uint pair = chosen[body];
 #if STRIKES
-    if (isByHand(pair)) return BlowRecord(uvec4(BREAKS_A, 0u, 0u, 0u), records[body].blow, vec4(records[body].arm.xyz, 0.0), vec4(0.0));
+    if (isByHand(pair)) return BlowRecord(uvec4(BREAKS_A, 0u, 0u, 0u), records[body].blow, vec4(records[body].arm.xyz, 0.0), vec4(0.0), vec4(records[body].along.xyz, 0.0));
 #endif
     return blows[pair];
 }
@@ -331,16 +331,12 @@ void setBroken(uint k, uint body, uint sites, float paid, Rays rays) {
     BlowRecord blow = blowOf(body);
     bool by_hand = isByHand(pair), is_b = !by_hand && memory[pair].ids.x != body;
     uint other = by_hand ? NO_INDEX : is_b ? memory[pair].ids.x : memory[pair].ids.y;
-    vec3 normal = vec3(0.0);
-    if (!by_hand) normal = memory[pair].normal.xyz;
-#if STRIKES
-    if (by_hand) normal = records[body].along.xyz;
-#endif
+    vec3 normal = blow.along.xyz;
     float joules = cards[breakable[body].surface.w].cracks.z * joulesOf(blow);
     broken[k].ids = uvec4(body, other, pair, is_b ? 1u : 0u);
     broken[k].blow = vec4(blow.blow.xy, joules, 0.0);
     broken[k].share = vec4(joulesOf(blow), paid, lacked);
-    broken[k].place = vec4(armOf(body), blow.blow.w);
+    broken[k].place = vec4(turned(turnBack(bodies[body].turn), armOf(body)), blow.blow.w);
     broken[k].along = vec4(is_b ? -normal : normal, 0.0);
     setRecord(k, body, other, sites, rays, blow);
 }

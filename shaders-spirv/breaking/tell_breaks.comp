@@ -46,7 +46,7 @@ BreakEvent eventOf(uint k) {
     BrokenBody hit = broken[k];
     uint body = hit.ids.x;
     uint why = whyWhole(k);
-    vec3 offset = bodies[body].offset.xyz + hit.place.xyz;
+    vec3 offset = bodies[body].offset.xyz + turned(bodies[body].turn, hit.place.xyz);
     ivec3 sectors = sectorsIn(offset);
     BreakEvent event;
     event.what = uvec4(steps[STEPS_MADE], body, hit.ids.y, breakable[body].surface.w);

@@ -23,12 +23,15 @@ float yieldOf(Mover m, vec3 n) {
     return m.inverse_mass + dot(lever, m.inverse * lever);
 }
 
-Mover struckBy(uint k) { return moverOf(broken[k].ids.x, broken[k].place.xyz); }
+// Of the blow, from the center of mass of the body that it breaks, as that stands now.
+vec3 placeOfBlow(uint k) { return turned(bodies[broken[k].ids.x].turn, broken[k].place.xyz); }
+
+Mover struckBy(uint k) { return moverOf(broken[k].ids.x, placeOfBlow(k)); }
 
 // At the same place, or the pair would gain angular momentum.
 Mover striking(uint k) {
     uvec2 ids = broken[k].ids.xy;
-    Mover other = moverOf(ids.y, broken[k].place.xyz - wayBetween(ids.x, ids.y));
+    Mover other = moverOf(ids.y, placeOfBlow(k) - wayBetween(ids.x, ids.y));
     if (other.inverse_mass == 0.0) other.arm = vec3(0.0); // of an endless plane, say
     return other;
 }

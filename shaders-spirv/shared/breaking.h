@@ -63,7 +63,16 @@ struct Birth {
 struct BlowRecord {
     uvec4 sides; // BREAKS_*, 0 for what breaks nothing; y: as the bits of a float, when they meet, in steps from the beginning of this one
     vec4 blow;   // effective mass, speed of meeting, its energy; w: share of the step that is over when they meet
-    vec4 arm_a;  // of the middle of its points
+    vec4 arm_a;  // of the middle of its points, world axes, as the bodies stand when the step begins
+    vec4 arm_b;
+    vec4 along; // normal, from A to B, when they meet
+};
+
+// A contact of bodies that turn on the way to each other: where and when they meet is found step by step, each time with the bodies
+// standing as they will by then.
+struct TurningBlow {
+    uvec4 ids;  // pair, the two bodies; w: 1 once it is known that they do not meet
+    vec4 arm_a; // of where they meet, own axes; w: s since the step began, when they meet
     vec4 arm_b;
 };
 #define MOST_BREAKING 256 /* bodies in a step, as many as there are tiles */
@@ -76,7 +85,7 @@ struct BlowRecord {
 struct BrokenBody {
     uvec4 ids;  // body, the one that it was hit by, NO_INDEX for a hand; pair, 1 where it is the pair's B
     vec4 blow;  // effective mass, speed of meeting, J that its cracks may take; w: impulse that they took, once it is known
-    vec4 place; // of the blow, from the body's center of mass, world axes; w: share of the step that is over when they meet
+    vec4 place; // of the blow, from the body's center of mass, its own axes; w: share of the step that is over when they meet
     vec4 along; // normal, from the body to the other
     vec4 share; // J, of the blow's energy that this body may spend, all of it; fragments that it pays for, room or no room; of
                 // WHOLE_NO_PAIRS pairs and contacts, of WHOLE_TOO_LARGE triangles and sites that there is no room for
@@ -147,7 +156,7 @@ GPU_NAMESPACE_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 128 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
-              sizeof(gpu::BlowRecord) == 64);
+              sizeof(gpu::BlowRecord) == 80 && sizeof(gpu::TurningBlow) == 48);
 static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 160 && sizeof(gpu::SizeShare) == 16 &&
               sizeof(gpu::Birth) == 48);
 #endif

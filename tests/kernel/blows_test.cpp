@@ -75,7 +75,7 @@ Outcome judge(const Line& line) {
                          touches = bufferOf(std::vector<uint32_t>(pairs, 1)), breakable = bufferOf(line.breakable),
                          cards = bufferOf(std::vector{brittle::cardOf(*brittle::findMaterial("glass"))}),
                          steps = bufferOf(std::vector<uint32_t>{60, 0, 0, 0}), blows = blankBuffer<gpu::BlowRecord>(pairs),
-                         hardest = bufferOf(std::vector<uint32_t>(count, 0)),
+                         turning = blankBuffer<gpu::TurningBlow>(pairs), hardest = bufferOf(std::vector<uint32_t>(count, 0)),
                          chosen = bufferOf(std::vector<uint32_t>(count, NO_INDEX)),
                          shares = bufferOf(std::vector<uint32_t>(2 * count, std::bit_cast<uint32_t>(1.0f))),
                          breaking = blankBuffer<gpu::BreakingRecord>(MOST_BREAKING),
@@ -94,8 +94,9 @@ Outcome judge(const Line& line) {
                0.25f};
     const engine::Buffer vertices = blankBuffer<float>(8); // of what breaks in spokes and rings, which nothing does
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("find_blows"), pairs, find,
-                          {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, hardest});
+        commands.dispatch(
+            kernel("find_blows"), pairs, find,
+            {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, hardest, turning});
         commands.dispatch(kernel("choose_blows"), pairs, engine::NoPush{}, {counts.words, memory, blows, hardest, chosen});
         commands.dispatch(kernel("hold_blows"), pairs, engine::NoPush{},
                           {counts.words, memory, states, blows, chosen, touches, shares});

@@ -68,8 +68,9 @@ TEST(BreakingGates, AWorldThatBreaksNothingIsThatOfBodiesThatCannotBreak) {
 
 TEST(BreakingGates, ThePassesOfAnEffectAreThereWithItAlone) {
     const std::set<std::string> all = kernelsOf(planOf(allOn())), whole = kernelsOf(planOf(without(Effect::ImpactFracture)));
-    for (const char* kernel : {"find_blows", "admit_breaking", "cut_cells", "clip_triangles", "emit", "pay_cracks",
-                               "adopt_hulls", "retire_bodies", "take_ranges", "return_ranges"}) {
+    for (const char* kernel :
+         {"find_blows", "advance_turning", "judge_turning", "admit_breaking", "cut_cells", "clip_triangles", "emit",
+          "pay_cracks", "adopt_hulls", "retire_bodies", "take_ranges", "return_ranges"}) {
         const bool wide = engine_test::device().subgroupSize() >= 32 && all.contains(std::string(kernel) + "_wide");
         EXPECT_TRUE(all.contains(wide ? std::string(kernel) + "_wide" : kernel)) << kernel;
         EXPECT_FALSE(whole.contains(kernel) || whole.contains(std::string(kernel) + "_wide")) << kernel;

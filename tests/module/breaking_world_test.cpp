@@ -159,6 +159,37 @@ TEST(BreakingWorld, StepsHardlyDecideHowHardAFallIs) {
     expectAlikeInStepsOfAnyLength(sceneOf({ball({0, 2, 0}, "concrete")}), 0.05, 0.15);
 }
 
+// It turns by up to 19 degrees in a step, and by the time that they meet another of its corners may be the lowest.
+SceneDescription turningBar(const Double3& spin) {
+    BodyDescription bar;
+    bar.shape.size = {0.6, 0.06, 0.06};
+    bar.material = "stone";
+    bar.spin = spin;
+    return sceneOf({bar});
+}
+
+TEST(BreakingWorld, StepsDoNotDecideHowHardATurningBodyIsHit) {
+    for (const double spin : {-10.0, -2.0, 5.0}) {
+        SceneDescription scene = turningBar({0, spin, 0});
+        scene.effects = {"contacts", "impact_fracture", "events"};
+        scene.colliders.clear();
+        BodyDescription shot = ball({0.2, 0.01, 1.05}, "");
+        shot.shape.radius = 0.05;
+        shot.mass = 2;
+        shot.velocity = {0, 0, -20};
+        scene.bodies.push_back(shot);
+        expectAlikeInStepsOfAnyLength(scene, 0.01, 0.05);
+    }
+}
+
+TEST(BreakingWorld, StepsHardlyDecideHowHardATumblingFallIs) {
+    for (const double spin : {-3.0, 8.0}) {
+        SceneDescription scene = turningBar({0, 0.3 * spin, spin});
+        scene.bodies[0].place = {0, 1, 0};
+        expectAlikeInStepsOfAnyLength(scene, 0.05, 0.15);
+    }
+}
+
 TEST(BreakingWorld, IsTheSameBitForBitInEveryRunAndWithGroupsOfAnySize) {
     std::vector<uint64_t> hashes;
     for (const uint32_t group_size : {64u, 64u, 32u}) {

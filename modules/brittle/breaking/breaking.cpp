@@ -5,6 +5,7 @@
 #include "modules/brittle/breaking/breaking_buffers.h"
 #include "modules/brittle/breaking/debris.h"
 #include "modules/brittle/breaking/dust.h"
+#include "modules/brittle/breaking/turning.h"
 #include "modules/brittle/dynamics/event_ring.h"
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/upload.h"
@@ -55,7 +56,7 @@ public:
         return {};
     }
 
-    void recordBlows(const Step& s, bool struck) override {
+    Result<void> recordBlows(const Step& s, bool struck) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("blows");
         s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
@@ -64,7 +65,8 @@ public:
         const float find[] = {gravity.x, gravity.y, gravity.z, gravity.w, static_cast<float>(s.settings.dt)};
         s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), find,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
-                      s.b.steps, p_.blows, p_.hardest});
+                      s.b.steps, p_.blows, p_.hardest, p_.turning});
+        if (auto recorded = recordTurning(s, l_, p_); !recorded) return recorded;
         if (struck) strikes_->recordRaising(s, p_);
         const uint32_t publish[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
         s.record.runGroups("publish_if", 1, publish, {world, s.record.args()});
@@ -77,6 +79,7 @@ public:
                       s.b.step.touches});
         if (struck) strikes_->recordChoice(s, p_);
         s.record.commands().endLabel();
+        return {};
     }
 
     void recordAdmission(const Step& s, bool struck) override {

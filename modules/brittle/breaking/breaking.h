@@ -28,7 +28,7 @@ public:
     // Of a step in which a host strikes by hand: whom, before it is decided who sleeps. `struck`, of what follows: whether that
     // has been recorded.
     virtual engine::Result<void> recordStrikes(const Step& step, std::span<const HandBlow> blows) = 0;
-    virtual void recordBlows(const Step& step, bool struck) = 0;
+    virtual engine::Result<void> recordBlows(const Step& step, bool struck) = 0;
     // Who breaks, once nothing can fail any more that the step needs: a step that is not made breaks nothing. Bodies stand as
     // they did when it began.
     virtual void recordAdmission(const Step& step, bool struck) = 0;

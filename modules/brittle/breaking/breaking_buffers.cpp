@@ -46,7 +46,11 @@ constexpr ViewName<P> kPassing[] = {{&P::blows, "blows"},
                                     {&P::lacking, "lacking"},
                                     {&P::histogram, "owner histogram"},
                                     {&P::digit_offsets, "owner digit offsets"},
-                                    {&P::sums, "owner sums"}};
+                                    {&P::sums, "owner sums"},
+                                    {&P::turning, "turning blows"},
+                                    {&P::posed_bodies, "posed bodies"},
+                                    {&P::posed_pieces, "posed pieces"},
+                                    {&P::posed_pairs, "posed pairs"}};
 
 constexpr ViewName<PoolBuffers> kPools[] = {{&PoolBuffers::headers, "pool headers"},
                                             {&PoolBuffers::free_ranges, "free ranges"},
@@ -115,6 +119,10 @@ PassingBuffers layOutPassing(ScratchArena& arena, const BreakingSizes& n) {
     p.histogram = words(histogram);
     p.digit_offsets = words(histogram + 1);
     p.sums = words(histogram / SCAN_BLOCK + 2);
+    p.turning = arena.take(n.pairs * sizeof(gpu::TurningBlow));
+    p.posed_bodies = arena.take(2 * n.pairs * sizeof(gpu::BodyState));
+    p.posed_pieces = arena.take(2 * n.pairs * sizeof(gpu::PieceRecord));
+    p.posed_pairs = words(2 * n.pairs);
     return p;
 }
 

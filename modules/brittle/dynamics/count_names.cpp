@@ -28,7 +28,8 @@ constexpr CountName kStep[] = {{COUNT_BOXES, "boxes"},
                                {COUNT_AWAKE, "bodies awake"},
                                {COUNT_SWIFT, "contacts, where a body is fast"},
                                {COUNT_SOLVED_APART, "islands, and all else"},
-                               {COUNT_STRUCK, "pairs, where a contact breaks something"}};
+                               {COUNT_STRUCK, "pairs, where a contact breaks something"},
+                               {COUNT_TURNING, "blows of bodies that turn"}};
 
 constexpr CountName kFracture[] = {{COUNT_SITES, "sites"},
                                    {COUNT_NEIGHBORS, "neighbors of cells"},

@@ -310,7 +310,8 @@ private:
         if (blows != nullptr)
             if (auto struck = breaking_->recordStrikes(step, *blows); !struck) return struck;
         recordIslands(step);
-        if (breaking_) breaking_->recordBlows(step, blows != nullptr);
+        if (breaking_)
+            if (auto recorded = breaking_->recordBlows(step, blows != nullptr); !recorded) return recorded;
         recordColors(step);
         if (breaking_) breaking_->recordAdmission(step, blows != nullptr);
         recordSolve(step);

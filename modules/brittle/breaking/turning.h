@@ -1,0 +1,13 @@
+// Blows of bodies that turn on the way to each other: the narrow phase is asked again, with both standing as they will when
+// they meet.
+#pragma once
+
+#include "modules/brittle/breaking/breaking_buffers.h"
+#include "modules/brittle/dynamics/step.h"
+
+namespace brittle {
+
+// Behind find_blows, which lists them. The manifolds of the step are used up by then, and their memory is used once more.
+engine::Result<void> recordTurning(const Step& step, const LastingBuffers& lasting, const PassingBuffers& passing);
+
+} // namespace brittle

@@ -1,0 +1,72 @@
+// Where and when bodies meet that turn on the way to each other. The narrow phase finds points along the way, but not along the turn:
+// by the time that a long bar has come down, another of its corners may be the lowest, and it meets sooner or later and with another
+// part of its mass. So for such pairs it is asked again, some times over: each time with both bodies standing as they will when they
+// meet by what the time before has found (Newton's method), in a list of bodies and pieces of their own. Where they have gone into
+// each other before the step began, that is a time in the past.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "lib/kernel.glsl"
+#include "shared/body.h"
+#include "shared/breaking.h"
+#include "shared/contact.h"
+#include "shared/narrow_phase.h"
+#include "shared/solver.h"
+
+FLAT_KERNEL;
+READS(0, uint, counts);
+READS(1, uvec2, pairs);
+READS(2, BodyState, bodies);
+READS(3, BodyShape, shapes);
+READS(4, SolverBody, solver_bodies);
+READS(5, PieceRecord, pieces);
+READS(6, Manifold, manifolds); // of the time before
+UPDATES(7, TurningBlow, turning);
+WRITES(8, BodyState, posed_bodies);
+WRITES(9, PieceRecord, posed_pieces);
+WRITES(10, uvec2, posed_pairs);
+WRITES(11, AxisRecord, axes);
+layout(push_constant) uniform Push {
+    vec4 gravity; // w: length of a substep, s
+    float duration;
+    uint is_first;
+};
+#include "lib/turning_contact.glsl"
+
+const float kFurthest = 2.0; // steps ahead
+const float kBack = 1.0;
+
+// Bodies that part, or have no points, do not meet.
+void setTime(uint k, inout TurningBlow t) {
+    bool touching = manifolds[k].info.x > 0u;
+    if (touching) {
+        TurningContact c = contactOf(k, t);
+        touching = c.closing > 0.0;
+        t.arm_a = vec4(turned(turnBack(c.a.turn), c.arm_a), clamp(t.arm_a.w + c.separation / c.closing, -kBack * duration, kFurthest * duration));
+        t.arm_b = vec4(turned(turnBack(c.b.turn), c.arm_b), 0.0);
+    }
+    t.ids.w = touching ? t.ids.w : 1u;
+}
+
+// Its velocity is that of the place where they meet, so that the narrow phase looks ahead along the way of that.
+void pose(uint slot, uint body, uint piece, vec3 own_arm, float time) {
+    BodyState b = bodies[body];
+    Flight f = flightOf(body, movesOf(body), time);
+    b.offset.xyz += f.way;
+    b.turn = f.turn;
+    b.velocity.xyz = velocityAt(f, turned(f.turn, own_arm));
+    posed_bodies[slot] = b;
+    posed_pieces[slot].ids = uvec4(pieces[piece].ids.x, slot, pieces[piece].ids.zw);
+}
+
+void main() {
+    uint k = flatIndex();
+    if (k >= counts[COUNT_TURNING]) return;
+    TurningBlow t = turning[k];
+    if (is_first == 0u && t.ids.w == 0u) setTime(k, t);
+    turning[k] = t;
+    uvec2 of = pairs[t.ids.x];
+    pose(2u * k, t.ids.y, of.x, t.arm_a.xyz, t.arm_a.w);
+    pose(2u * k + 1u, t.ids.z, of.y, t.arm_b.xyz, t.arm_a.w);
+    posed_pairs[k] = uvec2(2u * k, 2u * k + 1u);
+    axes[k].info.x = AXIS_UNKNOWN;
+}

@@ -1,0 +1,42 @@
+// What a blow breaks, by its energy, its speed and the materials; and its record. Wants `bodies`, `breakable`, `cards`, `steps`, `counts`,
+// `blows`, `hardest` and `duration` declared.
+#include "lib/break_pattern.glsl"
+#include "lib/breaking_laws.glsl"
+#include "lib/takes_part.glsl"
+
+bool canBreak(uint body) {
+    return breakable[body].surface.y > 0u && float(steps[STEPS_MADE]) * duration >= breakable[body].form.w;
+}
+
+float impedanceOf(uint body) {
+    uint material = breakable[body].surface.w;
+    return material != NO_INDEX ? cards[material].elastic.z : float(RIGID_IMPEDANCE);
+}
+
+// By the energy of the blow, or, where both break, by half of it each.
+bool breaksBody(uint body, uint other, BlowRecord record, float share) {
+    if (!canBreak(body)) return false;
+    BreakableBody b = breakable[body];
+    BodyForm form = formOf(b.form.x, b.form.y);
+    MaterialCard card = cards[b.surface.w];
+    Blow blow = Blow(record.blow.x, record.blow.y, impedanceOf(other));
+    uint spread = spreadOf(uint(b.high.w));
+    return breaks(card, form, b.form.z, blow, spread) && paysForTwo(card, form, share * energyOf(blow), spread);
+}
+
+uint sidesThatBreak(uvec2 ids, BlowRecord record) {
+    bool a = breaksBody(ids.x, ids.y, record, 0.5), b = breaksBody(ids.y, ids.x, record, 0.5);
+    if (a && b) return BREAKS_A | BREAKS_B;
+    a = a || breaksBody(ids.x, ids.y, record, 1.0);
+    b = b || (!a && breaksBody(ids.y, ids.x, record, 1.0));
+    return (a ? BREAKS_A : 0u) | (b ? BREAKS_B : 0u);
+}
+
+void tellBlow(uint pair, uvec2 ids, BlowRecord record) {
+    record.sides.x = sidesThatBreak(ids, record);
+    if (record.sides.x == 0u) return;
+    blows[pair] = record;
+    atomicAdd(counts[COUNT_BLOWS], 1u);
+    if (takesPart(ids.x)) atomicMax(hardest[ids.x], floatBitsToUint(record.blow.z));
+    if (takesPart(ids.y)) atomicMax(hardest[ids.y], floatBitsToUint(record.blow.z));
+}
