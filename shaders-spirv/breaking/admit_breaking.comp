@@ -7,6 +7,7 @@
 #include "lib/break_pattern.glsl"
 #include "lib/breaking_laws.glsl"
 #include "lib/half_edge.glsl"
+#include "lib/plate_shape.glsl"
 #include "lib/quaternion.glsl"
 #include "lib/radial_law.glsl"
 #include "shared/body.h"
@@ -139,6 +140,7 @@ vec3 edgesOf(uint body) {
 struct Plane {
     bool is_flat;
     float depth; // all of it lies within, on either side
+    vec2 edges;  // along the two that follow
     vec3 across;
     vec3 along;
 };
@@ -152,7 +154,7 @@ Plane planeOf(uint body) {
     vec3 across = vec3(0.0), along = vec3(0.0);
     across[next] = 1.0;
     along[last] = 1.0;
-    return Plane(kFlat * edges[thin] < min(edges[next], edges[last]), edges[thin], turned(turn, across), turned(turn, along));
+    return Plane(kFlat * edges[thin] < min(edges[next], edges[last]), edges[thin], vec2(edges[next], edges[last]), turned(turn, across), turned(turn, along));
 }
 
 int placementOf(uint body, bool is_flat) {
@@ -202,6 +204,17 @@ Rays raysOf(uint k, uint body) {
     return raysFor(long_, blow.blow.y, form.side, reach_of[k], furthest, most_fragments, chanceFor(body, 0x5bd1e995u), chanceFor(body, 0x2545f491u));
 }
 
+// Of a plate, with what its shape and the place of the blow make of its cracks.
+BodyForm formUnderBlow(uint body) {
+    BodyForm form = formOfBody(body);
+    Plane plane = planeOf(body);
+    if (!isThin(form) || !plane.is_flat) return form;
+    vec3 off = blowInFrameOf(body, armOf(body)) - breakable[body].balance.xyz;
+    form.outline = 2.0 * (plane.edges.x + plane.edges.y) * inversesqrt(plane.edges.x * plane.edges.y);
+    if (spreadOf(patternOf(body)) == SPREAD_ABOUT_BLOW) form.crowded = crowdedIn(plane.edges, vec2(dot(off, plane.across), dot(off, plane.along)));
+    return form;
+}
+
 // How the paper's sites crowd.
 float favorFor(uint body) {
     float joules = joulesOf(blowOf(body));
@@ -214,7 +227,7 @@ float favorFor(uint body) {
 void countFragments(uint k, uint body) {
     MaterialCard card = cards[breakable[body].surface.w];
     uint spread = spreadOf(patternOf(body));
-    uint paid = max(fragmentCount(card, formOfBody(body), joulesOf(blowOf(body)), 0xffffffu, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
+    uint paid = max(fragmentCount(card, formUnderBlow(body), joulesOf(blowOf(body)), 0xffffffu, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
     if (isRadial(body)) {
         Rays rays = raysOf(k, body);
         paid = rays.spokes * rays.rings;

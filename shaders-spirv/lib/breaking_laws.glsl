@@ -7,6 +7,8 @@ struct BodyForm {
     float surface;
     float side; // of the square plate that has both
     float thickness;
+    float outline; // of a plate, in sides: a square's
+    float crowded; // of a plate, how much crack a blow leaves in it for a square's (lib/plate_shape.glsl)
 };
 
 struct Blow {
@@ -22,7 +24,7 @@ BodyForm formOf(float volume, float surface) {
     float cosine = -6.0 * volume / surface * sqrt(6.0 / surface), edge = pow(volume, 1.0 / 3.0);
     float side = 2.0 * sqrt(surface / 6.0) * cos(acos(max(cosine, -1.0)) / 3.0);
     bool round_ = cosine <= -1.0;
-    return BodyForm(volume, surface, round_ ? edge : side, round_ ? edge : min(side, volume / (side * side)));
+    return BodyForm(volume, surface, round_ ? edge : side, round_ ? edge : min(side, volume / (side * side)), 4.0, 1.0);
 }
 
 bool isThin(BodyForm form) { return float(THIN) * form.thickness < form.side; }
@@ -55,7 +57,8 @@ float cracksOfSolid(BodyForm form, float count, uint spread, float favor) {
 
 float cracksOfPlate(BodyForm form, float count, uint spread, float favor) {
     float wall = form.side * form.thickness, rim = 1.0 - 1.0 / count;
-    return crowdingInPlate(count, spread, favor) * 0.5 * float(CELL_OUTLINE) * wall * (sqrt(count) - 1.0 / count) - 4.0 * float(PLATE_RIM) * wall * rim;
+    float bulk = form.crowded * 0.5 * float(CELL_OUTLINE) * wall * (sqrt(count) - 1.0 / count);
+    return crowdingInPlate(count, spread, favor) * bulk - form.outline * float(PLATE_RIM) * wall * rim;
 }
 
 float crackAreaOf(BodyForm form, float count, uint spread, float favor) {

@@ -20,11 +20,13 @@ struct Target {
     double half_depth = 0; // m, towards what hits it
     brittle::BreakPattern pattern = brittle::BreakPattern::Impact;
     brittle::Double3 off = {0, 0, 0}; // of its middle, from where it is hit
+    double room = 1;                  // sites for what the law of a square that is hit about its middle asks for
 };
 
 Target brokenBy(brittle::BreakPattern pattern, Target target, brittle::Double3 off = {0, 0, 0}) {
     target.pattern = pattern;
     target.off = off;
+    if (pattern == brittle::BreakPattern::Radial) target.room = 1.2; // rings have sites beyond the rim
     return target;
 }
 
@@ -44,6 +46,14 @@ Target ballOf(double radius, const char* material) {
 Target paneOf(double edge, double thickness) {
     Target target{{}, "glass", thickness / 2};
     target.shape.size = {edge, edge, thickness};
+    return target;
+}
+
+Target slabOf(double length, double width, double thickness, double off) {
+    Target target{{}, "glass", thickness / 2};
+    target.shape.size = {length, width, thickness};
+    target.off = {off, 0, 0};
+    target.room = 2;
     return target;
 }
 
@@ -126,10 +136,9 @@ struct Measured {
     double fragments = 0;           // of each
 };
 
-// `room`: for so many times as many sites, of which rings have some beyond the rim.
-Measured measure(const Target& target, uint32_t copies, double fragments, double room = 1) {
+Measured measure(const Target& target, uint32_t copies, double fragments) {
     Measured sum;
-    const auto events = breaksOf(hits(target, copies, fragments), roomFor(copies, room * fragments));
+    const auto events = breaksOf(hits(target, copies, fragments), roomFor(copies, target.room * fragments));
     EXPECT_EQ(events.size(), copies);
     for (const gpu::BreakEvent& event : events) {
         sum.afforded += double{event.blow.z};
@@ -149,13 +158,12 @@ struct Hit {
 void expectCracksToCostTheirShare(const std::vector<Hit>& all) {
     double least = 1e30, most = 0;
     for (const Hit& hit : all) {
-        const bool radial = hit.target.pattern == brittle::BreakPattern::Radial;
-        const Measured found = measure(hit.target, hit.copies, hit.fragments, radial ? 1.2 : 1);
+        const Measured found = measure(hit.target, hit.copies, hit.fragments);
         EXPECT_NEAR(found.spent / found.afforded, 1, 0.15) << hit.fragments << " of " << hit.target.half_depth;
         const brittle::Material& card = *brittle::findMaterial(hit.target.material);
         const double joules = found.afforded / hit.copies / card.eta;
         const double expected = brittle::expectedFragments(card, formOf(hit.target), joules, spreadOf(hit.target.pattern));
-        if (!radial) {
+        if (hit.target.room == 1) {
             EXPECT_NEAR(found.fragments / expected, 1, 0.2);
         }
         least = std::min(least, found.afforded / hit.copies);
@@ -187,6 +195,17 @@ TEST(CrackArea, OfPanesIsWhatTheBlowPaysFor) {
                                   {paneOf(0.6, 0.004), 6, 40},
                                   {paneOf(1, 0.006), 3, 150},
                                   {paneOf(1.8, 0.012), 1, 1000}});
+}
+
+// Hit in the middle, halfway to an end, and at an end.
+TEST(CrackArea, OfOblongPanesIsWhatTheBlowPaysFor) {
+    expectCracksToCostTheirShare({{slabOf(0.3, 0.1, 0.004, 0), 24, 3},
+                                  {slabOf(0.3, 0.1, 0.004, 0.135), 24, 3},
+                                  {slabOf(1.2, 0.2, 0.006, 0.3), 12, 12},
+                                  {slabOf(1.5, 0.2, 0.008, 0.7), 12, 12},
+                                  {slabOf(1.5, 0.2, 0.008, 0), 4, 60},
+                                  {slabOf(2, 0.4, 0.008, 0.9), 2, 200},
+                                  {slabOf(5, 1, 0.02, 1.2), 1, 500}});
 }
 
 using brittle::BreakPattern, brittle::Double3;
@@ -223,7 +242,9 @@ void expectShareWhereverHit(BreakPattern pattern, double room) {
     for (const double fragments : {12.0, 40.0, 120.0}) {
         const auto copies = static_cast<uint32_t>(250 / (fragments + 5));
         for (const Double3& off : {Double3{0.16, 0.08, 0}, Double3{0.36, 0, 0}, Double3{0.36, 0.36, 0}}) {
-            const Measured found = measure(brokenBy(pattern, paneOf(0.8, 0.004), off), copies, fragments, room);
+            Target target = brokenBy(pattern, paneOf(0.8, 0.004), off);
+            target.room = room;
+            const Measured found = measure(target, copies, fragments);
             EXPECT_NEAR(found.spent / found.afforded, 1, 0.15) << fragments << " at " << off[0] << ", " << off[1];
         }
     }

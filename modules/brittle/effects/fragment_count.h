@@ -32,7 +32,8 @@
 // whatever its outline, a bowl for the plate it would be if it were rolled out, a cube for a cube. No box is asked, which would
 // say nothing about a bowl. Balls have less surface than a plate can; they are solids from the start.
 //
-// Kernels do the same in 32 bits.
+// Kernels do the same in 32 bits. Of flat bodies they know the edges as well, and take the outline of an oblong one for what it is and
+// cracks for as much fewer as sites are more crowded in it (lib/plate_shape.glsl).
 #pragma once
 
 #include "modules/brittle/effects/material.h"
