@@ -296,6 +296,7 @@ TEST_F(SimulateCli, PicturesOfTheLastMomentOrOfEveryFrame) {
     ASSERT_EQ(simulate({smallScene(), "-o", path("last.png"), "--seconds", "0.2"}).exit_code, 0);
     ASSERT_EQ(simulate({smallScene(), "-o", path("fall_%03d.png"), "--seconds", "0.2", "--fps", "10"}).exit_code, 0);
     EXPECT_EQ(files(), (std::set<std::string>{"small.toml", "last.png", "fall_000.png", "fall_001.png", "fall_002.png"}));
+    expectRefused(simulate({smallScene(), "-o", path("fall_%s.png"), "--seconds", "0.2"}), 2, "write %d or %04d");
     EXPECT_EQ(fileBytes(path("last.png")).substr(1, 3), "PNG");
     EXPECT_TRUE(fileBytes(path("fall_002.png")) == fileBytes(path("last.png")));
     EXPECT_FALSE(fileBytes(path("fall_000.png")) == fileBytes(path("last.png")));

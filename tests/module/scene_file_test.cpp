@@ -187,6 +187,7 @@ TEST(SmallSceneFile, RefusesBodiesThatCannotBe) {
              {"[[body]]\nshape = \"mesh\"\nsites = 3\n", "scene.toml:2: body 0: a mesh needs a 'file'"},
              {"[[body]]\nshape = \"mesh\"\nfile = \"a.obj\"\n", "scene.toml:2: body 0: a mesh moves by its cells"},
              {"[[body]]\nname = \"a\"\n[[body]]\nname = \"a\"\n", "scene.toml:4: body 'a': another has this name"},
+             {"[[body]]\nname = \"a/1.7\"\n", "scene.toml:2: body 'a/1.7': has a '/' in its name"},
              {"[[body]]\nname = \"lid\"\nshape = \"hull\"\npoints = [[0,0,0],[1,0,0],[0,1,0],[1,1,0]]\n",
               "scene.toml:4: body 'lid': is no solid: coplanar points"},
              {"[[body]]\nsize = [1e-5, 1e-5, 1e-5]\ndensity = 1e-5\n", "scene.toml:3: body 0: weighs 1e-20 kg"},

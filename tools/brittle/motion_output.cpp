@@ -145,6 +145,9 @@ Result<std::unique_ptr<MotionOutput>> MotionOutput::create(const std::string& pa
     const auto numbered = NumberedName::parse(path);
     if (numbered && ending != ".png")
         return engine::Error{engine::ErrorCode::BadInput, path + ": only pictures are numbered, and end in .png"};
+    if (!numbered && ending == ".png" && std::filesystem::path(path).filename().string().find('%') != std::string::npos)
+        return engine::Error{engine::ErrorCode::BadInput,
+                             path + ": a '%' in the name of a picture stands for its number; write %d or %04d, once"};
     if (ending == ".glb") return openOutput<GlbOutput>(path, fps);
     if (ending == ".png") return numbered ? openNumbered(*numbered, fps) : openOutput<PictureOutput>(path);
     if (ending == ".mp4") {

@@ -58,7 +58,8 @@ Problem checkShapeKeys(const Place& place, void* owner) {
 // ---- what values have to do with each other -------------------------------------------------------------------------------
 
 Problem checkSource(const Place& place, const ShapeDescription& shape) {
-    if (shape.kind == ShapeKind::Mesh && shape.file.empty() && !shape.model) return problemAt(place, "shape", "a mesh needs a 'file'");
+    if (shape.kind == ShapeKind::Mesh && shape.file.empty() && !shape.model)
+        return problemAt(place, "shape", "a mesh needs a 'file'");
     if (shape.kind != ShapeKind::Hull) return {};
     if (shape.file.empty() && shape.points.empty()) return problemAt(place, "shape", "a hull needs 'points' or a 'file'");
     if (!shape.file.empty() && !shape.points.empty())
@@ -151,6 +152,16 @@ Problem checkNames(SectionId section, const Items& items) {
     return {};
 }
 
+// Fragments are called "vase/31.7".
+template <class Items>
+Problem checkBodyNames(SectionId section, const Items& items) {
+    for (size_t k = 0; k < items.size(); ++k)
+        if (items[k].name.find('/') != std::string::npos)
+            return problemAt(placeOf(section, k, items[k].name), "name",
+                             "has a '/' in its name, which only fragments have; take it out");
+    return checkNames(section, items);
+}
+
 Problem checkBudgets(const SceneDescription& scene) {
     const Place place{SectionId::Budgets, 0, ""};
     const SceneCounts counts = countsOf(scene);
@@ -209,8 +220,8 @@ std::optional<SceneProblem> findProblem(const SceneDescription& scene) {
     SceneDescription copy = scene;
     if (auto problem = checkSingles(copy)) return problem;
     if (auto problem = checkNames(SectionId::Material, copy.materials)) return problem;
-    if (auto problem = checkNames(SectionId::Body, copy.bodies)) return problem;
-    if (auto problem = checkNames(SectionId::Collider, copy.colliders)) return problem;
+    if (auto problem = checkBodyNames(SectionId::Body, copy.bodies)) return problem;
+    if (auto problem = checkBodyNames(SectionId::Collider, copy.colliders)) return problem;
     for (size_t k = 0; k < copy.materials.size(); ++k)
         if (auto problem = checkOneMaterial(copy.materials[k], k)) return problem;
     for (size_t k = 0; k < copy.bodies.size(); ++k)
