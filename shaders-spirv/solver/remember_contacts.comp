@@ -54,30 +54,50 @@ float armsOf(uint a, uint b) {
     return float(a_is_smaller ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW);
 }
 
+// Members are read where they are needed, and copied one by one: a struct with arrays that is looked at as a whole is unrolled by
+// compilers, and takes a software device half a second to compile.
 void remember(uint p, uint slot, uint old) {
-    Manifold m = manifolds[slot];
-    uint a = m.pair.z, b = m.pair.w;
+    uvec4 ids = manifolds[slot].pair;
+    vec4 normal = manifolds[slot].normal;
+    uint a = ids.z, b = ids.w, points = manifolds[slot].info.x;
     // A pair that does not touch gives its color back: others may take it by the time they touch again.
-    uint color = old == NO_INDEX || m.info.x == 0u ? NO_INDEX : old_memory[old].ids.w;
+    uint color = old == NO_INDEX || points == 0u ? NO_INDEX : old_memory[old].ids.w;
     vec4 turn_a = bodies[a].turn, turn_b = bodies[b].turn;
-    vec3 tangent = anyTangent(m.normal.xyz);
+    vec3 tangent = anyTangent(normal.xyz);
     vec4 surface_a = vec4(shapes[a].inverse_inertia[0].w, shapes[a].inverse_inertia[1].w, 0.0, 0.0);
     vec4 surface_b = vec4(shapes[b].inverse_inertia[0].w, shapes[b].inverse_inertia[1].w, 0.0, 0.0);
-    memory[p].ids = uvec4(a, b, min(m.info.x, MANIFOLD_POINTS), color);
-    memory[p].normal = vec4(m.normal.xyz, sqrt(surface_a.x * surface_b.x));
+    memory[p].ids = uvec4(a, b, min(points, MANIFOLD_POINTS), color);
+    memory[p].normal = vec4(normal.xyz, sqrt(surface_a.x * surface_b.x));
     memory[p].tangent = vec4(tangent, max(surface_a.y, surface_b.y));
     memory[p].rub.w = armsOf(a, b);
-    if (kFriction != 0u) memory[p].rub.xyz = old == NO_INDEX ? vec3(0.0) : rubOf(old, m.normal.xyz, tangent);
+    if (kFriction != 0u) memory[p].rub.xyz = old == NO_INDEX ? vec3(0.0) : rubOf(old, normal.xyz, tangent);
     memory[p].turn_a = turn_a;
     memory[p].turn_b = turn_b;
-    memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), m.info.x == 0u ? m.normal.w : 0.0);
-    for (uint k = 0u; k < MANIFOLD_POINTS && k < m.info.x; k++) {
-        uint feature = m.points[k].id.x;
+    memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), points == 0u ? normal.w : 0.0);
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) {
+        uint feature = manifolds[slot].points[k].id.x;
+        vec4 arm_a = manifolds[slot].points[k].arm_a, arm_b = manifolds[slot].points[k].arm_b;
         vec2 impulses = impulsesOf(old, feature);
-        memory[p].anchor_a[k] = vec4(turned(turnBack(turn_a), m.points[k].arm_a.xyz), impulses.x);
-        memory[p].anchor_b[k] = vec4(turned(turnBack(turn_b), m.points[k].arm_b.xyz), uintBitsToFloat(feature));
-        memory[p].arm_a[k] = m.points[k].arm_a;
-        memory[p].arm_b[k] = vec4(m.points[k].arm_b.xyz, impulses.y);
+        memory[p].anchor_a[k] = vec4(turned(turnBack(turn_a), arm_a.xyz), impulses.x);
+        memory[p].anchor_b[k] = vec4(turned(turnBack(turn_b), arm_b.xyz), uintBitsToFloat(feature));
+        memory[p].arm_a[k] = arm_a;
+        memory[p].arm_b[k] = vec4(arm_b.xyz, impulses.y);
+    }
+}
+
+void takeOver(uint p, uint old) {
+    memory[p].ids = old_memory[old].ids;
+    memory[p].normal = old_memory[old].normal;
+    memory[p].tangent = old_memory[old].tangent;
+    memory[p].rub = old_memory[old].rub;
+    memory[p].turn_a = old_memory[old].turn_a;
+    memory[p].turn_b = old_memory[old].turn_b;
+    memory[p].place = old_memory[old].place;
+    for (uint k = 0u; k < ROLLED(MANIFOLD_POINTS); k++) {
+        memory[p].anchor_a[k] = old_memory[old].anchor_a[k];
+        memory[p].anchor_b[k] = old_memory[old].anchor_b[k];
+        memory[p].arm_a[k] = old_memory[old].arm_a[k];
+        memory[p].arm_b[k] = old_memory[old].arm_b[k];
     }
 }
 
@@ -87,6 +107,6 @@ void main() {
     uint slot = fresh_slots[p], old = recalled[p];
     bool fresh = fresh_slots[p + 1u] != slot;
     if (fresh) remember(p, slot, old);
-    else memory[p] = old_memory[old];
+    else takeOver(p, old);
     touches[p] = (fresh ? manifolds[slot].info.x : old_memory[old].ids.z) != 0u ? 1u : 0u;
 }
