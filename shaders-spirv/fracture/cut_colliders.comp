@@ -67,7 +67,7 @@ int64_t fromWords(uint low, uint high) { return int64_t(uint64_t(low) | (uint64_
 #include "lib/write_collider.glsl"
 
 void fillNormals(uint lane) {
-    for (uint k = lane; k < SUPPORT_DIRECTIONS / 2; k += LANES) normals[k] = ivec4(kDirections[k], 0);
+    for (uint k = lane; k < SUPPORT_DIRECTIONS / 2; k += LANES) normals[k] = ivec4(supportDirection(2u * k), 0);
     barrier();
 }
 

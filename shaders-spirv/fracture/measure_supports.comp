@@ -27,7 +27,7 @@ int lows[PAIRS];
 void measure(vec3 position) {
     ivec3 p = fineOf(position, fine);
     [[unroll]] for (uint k = 0u; k < PAIRS; k++) {
-        ivec3 n = kDirections[k];
+        ivec3 n = supportDirection(2u * k);
         int height = n.x * p.x + n.y * p.y + n.z * p.z;
         highs[k] = max(highs[k], height);
         lows[k] = min(lows[k], height);

@@ -7,7 +7,6 @@
 #include "shared/collider.h"
 #include "lib/support_directions.glsl"
 
-// Direction 2 k is the k-th of the table, 2 k + 1 its opposite.
 vec3 fixedAxis(uint direction) { return turned(turnBack(pair.turn), normalize(vec3(supportDirection(direction)))); }
 
 float separationAlong(vec3 n) {
