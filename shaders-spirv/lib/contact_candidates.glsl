@@ -136,8 +136,12 @@ void addLowest(float expected) {
     for (uint k = 0u; k < candidate_count; k++)
         if (candidate_at[k].z <= expected + slack) return;
     uint lowest = 0u;
-    for (uint i = 0u; i < incident_count; i++)
-        if (incident_at[i].z < incident_at[lowest].z) lowest = i;
+    float least = incident_at[0].z;
+    for (uint i = 1u; i < incident_count; i++) {
+        float height = incident_at[i].z;
+        lowest = height < least ? i : lowest;
+        least = height < least ? height : least;
+    }
     addAnyway(incident_at[lowest], lowest, lowest + 1u == incident_count ? 0u : lowest + 1u);
 }
 

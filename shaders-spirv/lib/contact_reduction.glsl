@@ -7,16 +7,21 @@ float turnOf(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y -
 
 uint deepestOf() {
     uint best = 0u;
-    for (uint k = 1u; k < candidate_count; k++)
-        if (candidate_at[k].z < candidate_at[best].z) best = k;
+    float least = candidate_at[0].z;
+    for (uint k = 1u; k < candidate_count; k++) {
+        float height = candidate_at[k].z;
+        best = height < least ? k : best;
+        least = height < least ? height : least;
+    }
     return best;
 }
 
 uint furthestFrom(uint a) {
     uint best = a;
     float most = 0.0;
+    vec2 from = candidate_at[a].xy;
     for (uint k = 0u; k < candidate_count; k++) {
-        vec2 d = candidate_at[k].xy - candidate_at[a].xy;
+        vec2 d = candidate_at[k].xy - from;
         if (dot(d, d) > most) {
             most = dot(d, d);
             best = k;
@@ -28,8 +33,9 @@ uint furthestFrom(uint a) {
 uint furthestBeside(uint a, uint b) {
     uint best = a;
     float most = 0.0;
+    vec2 from = candidate_at[a].xy, to = candidate_at[b].xy;
     for (uint k = 0u; k < candidate_count; k++) {
-        float beside = abs(turnOf(candidate_at[a].xy, candidate_at[b].xy, candidate_at[k].xy));
+        float beside = abs(turnOf(from, to, candidate_at[k].xy));
         if (beside > most) {
             most = beside;
             best = k;

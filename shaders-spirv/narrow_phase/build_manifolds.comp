@@ -48,7 +48,14 @@ struct Touch {
     uint name;
 };
 
-Touch touches[MANIFOLD_POINTS];
+// The faces whose candidates are chosen from.
+struct Facing {
+    bool a_leads;
+    uint reference_face, incident_face;
+};
+
+Facing facing;
+uvec4 picked = uvec4(NO_INDEX); // candidates
 uint touch_count = 0u;
 
 vec3 shiftedCorner(bool of_a, uint vertex) { return cornerAt(pair, of_a, vertex) + (of_a ? vec3(0.0) : found.shift.xyz); }
@@ -75,75 +82,80 @@ vec3 normalOf(bool of_a, uint face) {
 }
 
 // Wants the plane set.
-void gatherCandidates(bool a_leads, uint reference_face, uint incident_face) {
+void gatherCandidates() {
     slack = kSlackShare * pair.smaller;
-    reference_count = loadReference(a_leads, reference_face);
-    incident_count = loadIncident(!a_leads, incident_face);
-    vec3 n = normalOf(!a_leads, incident_face);
+    reference_count = loadReference(facing.a_leads, facing.reference_face);
+    incident_count = loadIncident(!facing.a_leads, facing.incident_face);
+    vec3 n = normalOf(!facing.a_leads, facing.incident_face);
     candidate_count = 0u;
     addIncidentEdges();
     addReferenceCorners(vec3(dot(plane.u, n), dot(plane.v, n), dot(plane.n, n)));
     if (is_swept || found.axis.w <= 0.0) addLowest(found.axis.w);
 }
 
-void touchChosen(bool a_leads, uint reference_face, uint incident_face) {
-    uvec4 picked = chosen();
-    for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
-        if (picked[k] == NO_INDEX) break;
-        vec4 at = candidate_at[picked[k]];
-        vec3 incident = outOfPlane(at.xyz), under = outOfPlane(vec3(at.xy, 0.0));
-        uint name = floatBitsToUint(at.w) | incident_face << 14 | reference_face << 20 | (a_leads ? 0u : 1u << 26);
-        touches[k] = a_leads ? Touch(under, incident, name) : Touch(incident, under, name);
-        touch_count++;
-    }
-}
-
-void touchFaces() {
-    bool a_leads = found.info.y == 0u;
-    uint reference_face = min(found.info.z, HULL_FACES - 1u), incident_face = min(found.info.w, HULL_FACES - 1u);
-    spanPlane(a_leads ? found.axis.xyz : -found.axis.xyz);
-    plane.height.z = found.shift.w;
-    gatherCandidates(a_leads, reference_face, incident_face);
-    touchChosen(a_leads, reference_face, incident_face);
+Touch touchAt(uint candidate) {
+    vec4 at = candidate_at[min(candidate, CANDIDATES - 1u)];
+    vec3 incident = outOfPlane(at.xyz), under = outOfPlane(vec3(at.xy, 0.0));
+    uint name = floatBitsToUint(at.w) | facing.incident_face << 14 | facing.reference_face << 20 | (facing.a_leads ? 0u : 1u << 26);
+    return facing.a_leads ? Touch(under, incident, name) : Touch(incident, under, name);
 }
 
 const float kSquareEnough = 0.9; // cosine
 
-// Of the two faces of an edge the one that faces the other hull more squarely; y: how squarely, as bits.
-uvec2 squarerFace(bool of_a, uvec4 edge) {
-    vec3 towards = of_a ? found.axis.xyz : -found.axis.xyz;
-    float left = dot(normalOf(of_a, edge.z), towards), right = dot(normalOf(of_a, edge.w), towards);
-    return left >= right ? uvec2(edge.z, floatBitsToUint(left)) : uvec2(edge.w, floatBitsToUint(right));
+// How squarely the faces of the two edges face the other hull: A's two, then B's.
+vec4 squaresOf(uvec4 faces) {
+    vec4 squares = vec4(0.0);
+    for (uint k = 0u; k < ROLLED(4); k++) {
+        float square = dot(normalOf(k < 2u, faces[k]), k < 2u ? found.axis.xyz : -found.axis.xyz);
+        squares = mix(squares, vec4(square), equal(uvec4(k), uvec4(0u, 1u, 2u, 3u)));
+    }
+    return squares;
 }
 
-// Whether the faces of the two edges give the points.
-bool touchAlongEdges(uvec4 a, uvec4 b) {
-    uvec2 of_a = squarerFace(true, a), of_b = squarerFace(false, b);
-    float square_a = uintBitsToFloat(of_a.y), square_b = uintBitsToFloat(of_b.y);
-    if (max(square_a, square_b) < kSquareEnough || min(square_a, square_b) <= 0.0) return false;
-    bool a_leads = square_a >= square_b;
-    uint reference_face = a_leads ? of_a.x : of_b.x, incident_face = a_leads ? of_b.x : of_a.x;
-    spanPlane(a_leads ? found.axis.xyz : -found.axis.xyz);
-    tiltPlane(normalOf(a_leads, reference_face), shiftedCorner(a_leads, a_leads ? a.x : b.x));
-    gatherCandidates(a_leads, reference_face, incident_face);
-    touchChosen(a_leads, reference_face, incident_face);
-    return touch_count > 0u;
+// Of either edge the face that faces the other hull more squarely. Whether the two may give the points.
+bool edgesFace(uvec4 faces) {
+    vec4 squares = squaresOf(faces);
+    bvec2 left = greaterThanEqual(squares.xz, squares.yw);
+    vec2 square = mix(squares.yw, squares.xz, left);
+    uvec2 face = mix(faces.yw, faces.xz, left);
+    bool a_leads = square.x >= square.y;
+    facing = Facing(a_leads, a_leads ? face.x : face.y, a_leads ? face.y : face.x);
+    return max(square.x, square.y) >= kSquareEnough && min(square.x, square.y) > 0.0;
+}
+
+struct Ends {
+    vec3 of_a[2], of_b[2];
+};
+
+Ends endsOf(uvec4 vertices) {
+    vec3 ends[4];
+    for (uint k = 0u; k < ROLLED(4); k++) {
+        vec3 end = shiftedCorner(k < 2u, vertices[k]);
+        for (uint j = 0u; j < 4u; j++) ends[j] = j == k ? end : ends[j];
+    }
+    return Ends(vec3[2](ends[0], ends[1]), vec3[2](ends[2], ends[3]));
+}
+
+// `by_edges`: the axis is one between edges, whose ends are these.
+void touchFaces(bool by_edges, Ends ends) {
+    spanPlane(facing.a_leads ? found.axis.xyz : -found.axis.xyz);
+    if (by_edges) tiltPlane(normalOf(facing.a_leads, facing.reference_face), facing.a_leads ? ends.of_a[0] : ends.of_b[0]);
+    else plane.height.z = found.shift.w;
+    gatherCandidates();
+    picked = chosen();
+    touch_count = uint(dot(vec4(notEqual(picked, uvec4(NO_INDEX))), vec4(1.0)));
 }
 
 // Hulls that are apart further than the margin at the ends of these edges do not touch.
-void touchEdges() {
-    uvec4 a = hull_edges[pair.hull[0].first.w + ((found.info.x >> 8) & 0xffu)];
-    uvec4 b = hull_edges[pair.hull[1].first.w + (found.info.x & 0xffu)];
-    if (touchAlongEdges(a, b)) return;
-    vec3 p = shiftedCorner(true, a.x), q = shiftedCorner(false, b.x);
-    vec3 d = shiftedCorner(true, a.y) - p, e = shiftedCorner(false, b.y) - q, w = p - q;
+Touch touchEdges(Ends ends) {
+    vec3 p = ends.of_a[0], q = ends.of_b[0], d = ends.of_a[1] - p, e = ends.of_b[1] - q, w = p - q;
     float dd = dot(d, d), de = dot(d, e), ee = dot(e, e), dw = dot(d, w), ew = dot(e, w);
     float denominator = max(dd * ee - de * de, 1e-37);
     float s = clamp((de * ew - ee * dw) / denominator, 0.0, 1.0), t = clamp((dd * ew - de * dw) / denominator, 0.0, 1.0);
     Touch touch = Touch(p + s * d, q + t * e, 1u << 27 | (found.info.x & 0xffffu));
     bool near = is_swept || found.axis.w <= 0.0 || distance(touch.on_a, touch.on_b) <= pair.margin;
-    touches[0] = touch;
     touch_count = near ? 1u : 0u;
+    return touch;
 }
 
 ContactPoint pointOf(Touch touch) {
@@ -153,18 +165,24 @@ ContactPoint pointOf(Touch touch) {
     return ContactPoint(vec4(turned(pair.turn, a), separation), vec4(turned(pair.turn, b), 0.0), uvec4(touch.name, 0u, 0u, 0u));
 }
 
-void writeManifold(uint k) {
-    bool touching = touch_count > 0u;
-    manifolds[k].pair = pair.ids;
-    manifolds[k].normal = touching ? vec4(turned(pair.turn, found.axis.xyz), 0.0) : vec4(vec3(0.0), max(found.axis.w, 0.0));
-    manifolds[k].info = uvec4(touch_count, touching ? found.info.x : 0u, 0u, 0u);
-    for (uint p = 0u; p < MANIFOLD_POINTS; p++) {
+void writePoints(uint k, bool of_edges, Touch edges_touch) {
+    for (uint p = 0u; p < ROLLED(MANIFOLD_POINTS); p++) {
         bool there = p < touch_count;
-        ContactPoint point = pointOf(touches[p]);
+        Touch touch = touchAt(picked[p]);
+        if (of_edges) touch = edges_touch;
+        ContactPoint point = pointOf(touch);
         manifolds[k].points[p].arm_a = there ? point.arm_a : vec4(0.0);
         manifolds[k].points[p].arm_b = there ? point.arm_b : vec4(0.0);
         manifolds[k].points[p].id = there ? point.id : uvec4(0u);
     }
+}
+
+void writeManifold(uint k, bool of_edges, Touch edges_touch) {
+    bool touching = touch_count > 0u;
+    manifolds[k].pair = pair.ids;
+    manifolds[k].normal = touching ? vec4(turned(pair.turn, found.axis.xyz), 0.0) : vec4(vec3(0.0), max(found.axis.w, 0.0));
+    manifolds[k].info = uvec4(touch_count, touching ? found.info.x : 0u, 0u, 0u);
+    writePoints(k, of_edges, edges_touch);
 }
 
 void main() {
@@ -174,7 +192,18 @@ void main() {
     found = axes[k];
     is_swept = found.shift.xyz != vec3(0.0);
     uint kind = found.info.x >> AXIS_KIND_SHIFT;
-    if (kind == AXIS_EDGES) touchEdges();
-    else if (kind != AXIS_APART) touchFaces();
-    writeManifold(k);
+    bool by_edges = kind == AXIS_EDGES, by_faces = !by_edges && kind != AXIS_APART;
+    facing = Facing(found.info.y == 0u, min(found.info.z, HULL_FACES - 1u), min(found.info.w, HULL_FACES - 1u));
+    Ends ends;
+    if (by_edges) {
+        uvec4 a = hull_edges[pair.hull[0].first.w + ((found.info.x >> 8) & 0xffu)];
+        uvec4 b = hull_edges[pair.hull[1].first.w + (found.info.x & 0xffu)];
+        ends = endsOf(uvec4(a.xy, b.xy));
+        by_faces = edgesFace(uvec4(a.zw, b.zw));
+    }
+    if (by_faces) touchFaces(by_edges, ends);
+    Touch edges_touch = Touch(vec3(0.0), vec3(0.0), 0u);
+    bool of_edges = by_edges && touch_count == 0u;
+    if (of_edges) edges_touch = touchEdges(ends);
+    writeManifold(k, of_edges, edges_touch);
 }
