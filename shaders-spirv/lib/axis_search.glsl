@@ -43,19 +43,22 @@ bvec2 see(inout Seen seen, float separation, float speed, float doubt, uint feat
     return bvec2(is_best, is_last);
 }
 
-shared vec4 seen_values[LANES]; // separation, enter, leave, reach
-shared uvec2 seen_features[LANES];
+// Halves take turns, so that one barrier does: whoever writes one again has passed the barrier behind which all read the other.
+// Each barrier that is left out saves time, and what a software device takes to compile all that lives across it.
+shared vec4 seen_values[2u * LANES]; // separation, enter, leave, reach
+shared uvec2 seen_features[2u * LANES];
+uint seen_from = 0u;
 
 // What all lanes have seen together.
 Seen seenByAll(Seen mine) {
-    barrier();
-    seen_values[lane] = vec4(mine.separation, mine.enter, mine.leave, mine.reach);
-    seen_features[lane] = uvec2(mine.feature, mine.enter_feature);
+    seen_from = LANES - seen_from;
+    seen_values[seen_from + lane] = vec4(mine.separation, mine.enter, mine.leave, mine.reach);
+    seen_features[seen_from + lane] = uvec2(mine.feature, mine.enter_feature);
     barrier();
     Seen all = seenNothing();
     for (uint k = 0u; k < ROLLED(LANES); k++) {
-        vec4 values = seen_values[k];
-        uvec2 features = seen_features[k];
+        vec4 values = seen_values[seen_from + k];
+        uvec2 features = seen_features[seen_from + k];
         bool is_best = isBetter(values.x, features.x, all.separation, all.feature);
         bool is_last = isBetter(values.y, features.y, all.enter, all.enter_feature);
         all = Seen(is_best ? values.x : all.separation, is_best ? features.x : all.feature, is_last ? values.y : all.enter,
@@ -73,10 +76,10 @@ vec4 measureAlong(vec3 n) {
         vec2 both = vec2(-height, height);
         most = max(most, v < corner_counts.x ? vec4(both, vec2(-kFar)) : vec4(vec2(-kFar), both));
     }
+    seen_from = LANES - seen_from;
+    seen_values[seen_from + lane] = most;
     barrier();
-    seen_values[lane] = most;
-    barrier();
-    for (uint k = 0u; k < ROLLED(LANES); k++) most = max(most, seen_values[k]);
+    for (uint k = 0u; k < ROLLED(LANES); k++) most = max(most, seen_values[seen_from + k]);
     return most * vec4(-1, 1, -1, 1);
 }
 
