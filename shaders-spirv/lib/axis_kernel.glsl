@@ -70,16 +70,12 @@ Seen betterOf(Seen a, Seen b) {
                 is_later ? b.enter_feature : a.enter_feature, min(a.leave, b.leave), kFar);
 }
 
-void writeApart(uint k, float gap) {
-    if (lane == 0u) axis_records[k] = AxisRecord(vec4(vec3(0.0), gap), vec4(0.0), uvec4(AXIS_APART));
-}
+AxisRecord apartBy(float gap) { return AxisRecord(vec4(vec3(0.0), gap), vec4(0.0), uvec4(AXIS_APART)); }
 
 // `heights`: as measured along the axis; `faces`: the reference face and the other one.
-void writeAxis(uint k, uint feature, vec3 axis, vec4 heights, vec3 shift, bool b_leads, uvec2 faces) {
+AxisRecord recordOf(uint feature, vec3 axis, vec4 heights, vec3 shift, bool b_leads, uvec2 faces) {
     float low = heights.z + dot(axis, shift);
-    if (lane == 0u)
-        axis_records[k] = AxisRecord(vec4(axis, low - heights.y), vec4(shift, b_leads ? -low : heights.y),
-                                     uvec4(feature, b_leads, faces));
+    return AxisRecord(vec4(axis, low - heights.y), vec4(shift, b_leads ? -low : heights.y), uvec4(feature, b_leads, faces));
 }
 
 #endif

@@ -48,10 +48,13 @@ vec4 axisBetween(HullEdge a, HullEdge b) {
     return vec4(n * (p > 0.0 ? over : -over), crossing ? square * over : 0.0);
 }
 
+// A barrier before the next are listed.
+void forgetNearEdges() {
+    if (lane < 2u) near_count[lane] = 0u;
+}
+
 // Lists in any order, since what is found in them does not depend on it.
 void listNearEdges(float lowest_top, float highest_bottom, bool wanted) {
-    if (lane < 2u) near_count[lane] = 0u;
-    barrier();
     for (uint k = lane; k < (wanted ? edge_counts.x + edge_counts.y : 0u); k += LANES) {
         bool of_a = k < edge_counts.x;
         uint e = of_a ? k : k - edge_counts.x, side = of_a ? 0u : 1u;

@@ -62,6 +62,7 @@ Seen withEdges(Seen faces, bool wanted) {
 
 Seen searchAll() {
     Seen a, b;
+    forgetNearEdges();
     for (uint side = 0u; side < ROLLED(2); side++) {
         Seen seen = seeFaces(side == 0u);
         if (side == 0u) a = seen;
@@ -75,15 +76,15 @@ Seen searchAll() {
     return withEdges(faces, wanted);
 }
 
-void writeFound(uint k, Seen seen) {
+AxisRecord foundBy(Seen seen) {
     bool is_hit = isHit(seen);
     uint feature = is_hit ? seen.enter_feature : seen.feature, kind = feature >> AXIS_KIND_SHIFT;
     vec3 axis = kind == AXIS_EDGES ? edge_axis : faceAxis(feature);
     vec4 heights = measureAlong(axis);
     bool b_leads = kind == AXIS_FACE_B;
     Seen facing = facingFace(b_leads, axis, b_leads ? heights.y : -heights.z);
-    writeAxis(k, feature, axis, heights, is_hit ? seen.enter * pair.motion : vec3(0.0), b_leads,
-              uvec2(feature & 0xffu, facing.feature));
+    return recordOf(feature, axis, heights, is_hit ? seen.enter * pair.motion : vec3(0.0), b_leads,
+                    uvec2(feature & 0xffu, facing.feature));
 }
 
 void main() {
@@ -91,9 +92,7 @@ void main() {
     if (k >= min(pair_count[0], push.capacity) || isKnown(k)) return;
     loadHulls(k);
     Seen seen = searchAll();
-    if (isApart(seen)) {
-        writeApart(k, seen.separation);
-        return;
-    }
-    writeFound(k, seen);
+    AxisRecord record = apartBy(seen.separation);
+    if (!isApart(seen)) record = foundBy(seen);
+    if (lane == 0u) axis_records[k] = record;
 }

@@ -25,15 +25,15 @@ Seen seeFixedAxes(uint count) {
     return seenByAll(seen);
 }
 
-void writeFound(uint k, Seen seen) {
+AxisRecord foundBy(Seen seen) {
     bool is_hit = isHit(seen);
     uint feature = is_hit ? seen.enter_feature : seen.feature;
     vec3 axis = fixedAxis(feature & 0xffu);
     vec4 heights = measureAlong(axis);
     Seen a = facingFace(true, axis, heights.y), b = facingFace(false, axis, -heights.z);
     bool b_leads = b.separation > a.separation + kTie;
-    writeAxis(k, feature, axis, heights, is_hit ? seen.enter * pair.motion : vec3(0.0), b_leads,
-              b_leads ? uvec2(b.feature, a.feature) : uvec2(a.feature, b.feature));
+    return recordOf(feature, axis, heights, is_hit ? seen.enter * pair.motion : vec3(0.0), b_leads,
+                    b_leads ? uvec2(b.feature, a.feature) : uvec2(a.feature, b.feature));
 }
 
 void main() {
@@ -41,9 +41,7 @@ void main() {
     if (k >= min(pair_count[0], push.capacity) || isKnown(k)) return;
     loadHulls(k);
     Seen seen = seeFixedAxes(min(push.fixed_axes, uint(SUPPORT_DIRECTIONS)));
-    if (isApart(seen)) {
-        writeApart(k, seen.separation);
-        return;
-    }
-    writeFound(k, seen);
+    AxisRecord record = apartBy(seen.separation);
+    if (!isApart(seen)) record = foundBy(seen);
+    if (lane == 0u) axis_records[k] = record;
 }
