@@ -66,6 +66,8 @@ void main() {
     if (group >= counts[COUNT_SOLVED_APART]) return;
     bool island = isIsland(group);
     uvec2 left = island ? rangeOf(group) : colorsLeft();
+    // Mesa compiles what comes before a barrier apart from what comes after: without this one, what solves would be there twice.
+    barrier();
     for (uint turn = 0u; turn < kMostTurns && left.x < left.y; turn++) {
         uvec2 some = island ? uvec2(left.x, endOf(left.x)) : colorRange(left.x);
         for (uint c = some.x + lane; c < some.y; c += LANES) solve(c);
