@@ -12,7 +12,8 @@ constexpr float kPause = 0.25f;
 
 struct Hit {
     gpu::BrokenBody broken{};
-    Vector other = {0, 0, 0}; // its place from the other body's center of mass
+    Vector arm = {0, 0, 0};   // its place from the center of mass of what breaks, world axes
+    Vector other = {0, 0, 0}; // and from the other body's
     double cracks = 0;
     bool refused = false;
 };
@@ -57,6 +58,10 @@ Paid pay(const Crash& crash) {
 
 double fractureEnergy() { return brittle::findMaterial("glass")->fracture_energy; }
 
+gpu::vec4 inOwnAxes(const RigidBody& body, const Vector& arm) {
+    return wordsOf(Vector(turnOf(body.state.turn).conjugate() * arm));
+}
+
 // Two bodies that come together at a place, and one that breaks there.
 Crash randomCrash(Chance& chance, bool other_moves) {
     Crash crash;
@@ -64,7 +69,8 @@ Crash randomCrash(Chance& chance, bool other_moves) {
     const Vector way = crash.bodies[1].place() - crash.bodies[0].place(), arm = chance.inBox(0.4);
     Hit hit;
     hit.broken.ids = {0, 1, 0, 0};
-    hit.broken.place = wordsOf(arm);
+    hit.arm = arm;
+    hit.broken.place = inOwnAxes(crash.bodies[0], arm);
     hit.other = arm - way;
     const auto at = [&](const RigidBody& body, const Vector& r) -> Vector {
         return xyz(body.state.velocity) + xyz(body.state.spin).cross(r);
@@ -102,7 +108,7 @@ double energyAtTheContact(const Crash& crash) {
     for (size_t k = 0; k < 2; ++k) {
         const RigidBody& body = crash.bodies[k];
         if (!body.moves()) continue;
-        const Vector arm = k == 0 ? xyz(crash.hits[0].broken.place) : crash.hits[0].other, lever = arm.cross(n);
+        const Vector arm = k == 0 ? crash.hits[0].arm : crash.hits[0].other, lever = arm.cross(n);
         yield += double{body.state.offset.w} + lever.dot(body.inverseInertia() * lever);
         speed += (k == 0 ? 1 : -1) * n.dot(xyz(body.state.velocity) + xyz(body.state.spin).cross(arm));
     }
@@ -133,7 +139,7 @@ TEST(Cracks, TakeNoMoreThanThereIsAndTurnNobodyBack) {
         Crash crash = randomCrash(chance, k % 2 != 0);
         crash.hits[0].cracks = 1e4;
         const Paid paid = pay(crash);
-        const Vector n = xyz(crash.hits[0].broken.along), arm = xyz(crash.hits[0].broken.place), other = crash.hits[0].other;
+        const Vector n = xyz(crash.hits[0].broken.along), arm = crash.hits[0].arm, other = crash.hits[0].other;
         const auto speedAt = [&](uint32_t body, const Vector& r) {
             return n.dot(xyz(paid.states[body].velocity) + xyz(paid.states[body].spin).cross(r));
         };
@@ -146,7 +152,7 @@ TEST(Cracks, OfTwoThatBreakEachOtherArePaidForTogether) {
     Crash crash = randomCrash(chance, true);
     Hit back = crash.hits[0];
     back.broken.ids = {1, 0, 0, 1};
-    back.broken.place = wordsOf(back.other);
+    back.broken.place = inOwnAxes(crash.bodies[1], back.other);
     back.broken.along = wordsOf(Vector(-xyz(crash.hits[0].broken.along)));
     crash.hits[0].cracks = 0.02;
     back.cracks = 0.03;

@@ -182,6 +182,42 @@ TEST(BreakingWorld, StepsDoNotDecideHowHardATurningBodyIsHit) {
     }
 }
 
+// How a bar that turns about z as it comes down to y = 0 meets it: with its lowest edge, whose height above the center of mass
+// and place beside it follow from the angle; when is found by halving.
+TEST(BreakingWorld, ATurningBarMeetsTheGroundAsItsLowestEdgeDoes) {
+    constexpr double kLong = 0.6, kThick = 0.06, kHeight = 0.5, kSpeed = 5, kSpin = 7;
+    SceneDescription scene = turningBar({0, 0, kSpin});
+    scene.effects = {"contacts", "impact_fracture", "events"};
+    scene.bodies[0].place = {0, kHeight, 0};
+    scene.bodies[0].velocity = {0, -kSpeed, 0};
+    const auto lowestAt = [&](double time) -> std::array<double, 2> { // beside and above the center of mass
+        const double c = std::cos(kSpin * time), s = std::sin(kSpin * time);
+        std::array<double, 2> lowest = {0, 1};
+        for (const double x : {-kLong / 2, kLong / 2})
+            for (const double y : {-kThick / 2, kThick / 2})
+                if (s * x + c * y < lowest[1]) lowest = {c * x - s * y, s * x + c * y};
+        return lowest;
+    };
+    double early = 0, late = kHeight / kSpeed;
+    for (int k = 0; k < 60; ++k) {
+        const double time = (early + late) / 2;
+        (kHeight - kSpeed * time + lowestAt(time)[1] > 0 ? early : late) = time;
+    }
+    const double mass = brittle::findMaterial("stone")->density * kLong * kThick * kThick;
+    const double inertia = mass * (kLong * kLong + kThick * kThick) / 12, beside = lowestAt(late)[0];
+    const double effective = 1 / (1 / mass + beside * beside / inertia), speed = kSpeed - kSpin * beside;
+    ASSERT_GT(speed, 1);
+    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+        scene.step.dt = dt;
+        const auto world = worldOf(scene);
+        const auto events = stepUntilItBreaks(*world, 60);
+        ASSERT_EQ(events.size(), 1u);
+        EXPECT_NEAR(events[0].blow.x, effective, 1e-3 * effective);
+        EXPECT_NEAR(events[0].blow.y, speed, 1e-3 * speed);
+        EXPECT_NEAR(events[0].what.x, std::ceil(late / dt), 1);
+    }
+}
+
 TEST(BreakingWorld, StepsHardlyDecideHowHardATumblingFallIs) {
     for (const double spin : {-3.0, 8.0}) {
         SceneDescription scene = turningBar({0, 0.3 * spin, spin});
