@@ -41,7 +41,7 @@ const DynamicsWorkload kWorkloads[] = {
      "hull_pile_1000",
      "Random hulls fall into a pit and come to rest",
      kPile,
-     96,
+     72,
      180,
      6,
      36,
