@@ -43,7 +43,7 @@ const DynamicsWorkload kWorkloads[] = {
      kPile,
      72,
      180,
-     6,
+     12,
      36,
      pileTruth,
      {&kinds::kPenetration, &kinds::kEnergy, &kinds::kTrajectory},
