@@ -89,7 +89,8 @@ void takeOver(uint p, uint old) {
     memory[p].ids = old_memory[old].ids;
     memory[p].normal = old_memory[old].normal;
     memory[p].tangent = old_memory[old].tangent;
-    memory[p].rub = old_memory[old].rub;
+    memory[p].rub.w = old_memory[old].rub.w;
+    if (kFriction != 0u) memory[p].rub.xyz = old_memory[old].rub.xyz;
     memory[p].turn_a = old_memory[old].turn_a;
     memory[p].turn_b = old_memory[old].turn_b;
     memory[p].place = old_memory[old].place;

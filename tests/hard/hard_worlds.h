@@ -9,8 +9,9 @@ namespace hard {
 struct PoolCase {
     const char* name;
     void (*shrink)(brittle::WorldBudget& budget);
-    uint32_t why = 0;               // WHOLE_*, that the event says
-    std::array<bool, 4> lacks = {}; // of bodies, pieces, faces and triangles; of WHOLE_NO_PAIRS pairs and contacts
+    uint32_t why = 0; // WHOLE_*, that the event says
+    std::array<bool, 4> lacks =
+        {}; // of bodies, pieces, faces and triangles; of WHOLE_NO_PAIRS pairs and contacts, of WHOLE_TOO_LARGE triangles
 };
 
 std::span<const PoolCase> poolCases();
