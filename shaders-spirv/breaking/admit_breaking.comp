@@ -226,11 +226,12 @@ float favorFor(uint body) {
 // That the blow pays for, as a whole number, and so many of them as a body may have; two at least, since it breaks.
 void countFragments(uint k, uint body) {
     MaterialCard card = cards[breakable[body].surface.w];
-    uint spread = spreadOf(patternOf(body));
-    uint paid = max(fragmentCount(card, formUnderBlow(body), joulesOf(blowOf(body)), 0xffffffu, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
+    uint spread = spreadOf(patternOf(body)), paid;
     if (isRadial(body)) {
         Rays rays = raysOf(k, body);
         paid = rays.spokes * rays.rings;
+    } else {
+        paid = max(fragmentCount(card, formUnderBlow(body), joulesOf(blowOf(body)), 0xffffffu, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
     }
     paid_of[k] = float(paid);
     sites_of[k] = min(paid, most_fragments);

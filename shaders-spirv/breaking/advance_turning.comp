@@ -37,14 +37,13 @@ const float kBack = 1.0;
 
 // Bodies that part, or have no points, do not meet.
 void setTime(uint k, inout TurningBlow t) {
-    bool touching = manifolds[k].info.x > 0u;
-    if (touching) {
-        TurningContact c = contactOf(k, t);
-        touching = c.closing > 0.0;
-        t.arm_a = vec4(turned(turnBack(c.a.turn), c.arm_a), clamp(t.arm_a.w + c.separation / c.closing, -kBack * duration, kFurthest * duration));
-        t.arm_b = vec4(turned(turnBack(c.b.turn), c.arm_b), 0.0);
-    }
-    t.ids.w = touching ? t.ids.w : 1u;
+    t.ids.w = 1u;
+    if (manifolds[k].info.x == 0u) return;
+    TurningContact c = contactOf(k, t);
+    if (!(c.closing > 0.0)) return;
+    t.ids.w = 0u;
+    t.arm_a = vec4(turned(turnBack(c.a.turn), c.arm_a), clamp(t.arm_a.w + c.separation / c.closing, -kBack * duration, kFurthest * duration));
+    t.arm_b = vec4(turned(turnBack(c.b.turn), c.arm_b), 0.0);
 }
 
 // Its velocity is that of the place where they meet, so that the narrow phase looks ahead along the way of that.

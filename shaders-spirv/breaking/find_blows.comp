@@ -41,21 +41,18 @@ struct Meeting {
 bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
     Pair p = pairNow(pair, ids);
     uint points = min(ids.z, MANIFOLD_POINTS);
-    BlowRecord record = BlowRecord(uvec4(0u), vec4(0.0), vec4(0.0), vec4(0.0), vec4(normal, 0.0));
+    vec3 arm_a = vec3(0.0), arm_b = vec3(0.0);
     float separation = 3e38;
     for (uint k = 0u; k < points; k++) {
-        record.arm_a.xyz += turned(p.turn_a, memory[pair].anchor_a[k].xyz) / float(points);
-        record.arm_b.xyz += turned(p.turn_b, memory[pair].anchor_b[k].xyz) / float(points);
+        arm_a += turned(p.turn_a, memory[pair].anchor_a[k].xyz) / float(points);
+        arm_b += turned(p.turn_b, memory[pair].anchor_b[k].xyz) / float(points);
         separation = min(separation, separationNow(pair, k, p, normal));
     }
-    vec3 arm_a = record.arm_a.xyz, arm_b = record.arm_b.xyz;
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
     float now = dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), then = speedOfMeeting(now, separation, p, normal, gravity);
     float apart = max(separation, 0.0), mean = -0.5 * (now + then);
     if (yield_ <= 0.0 || !(then < 0.0)) return false;
-    record.blow = vec4(1.0 / yield_, -then, 0.5 * then * then / yield_, min(apart / (mean * duration), 1.0));
-    record.sides.y = floatBitsToUint(apart / (mean * duration));
-    met = Meeting(record, separation / mean);
+    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation / mean);
     return true;
 }
 

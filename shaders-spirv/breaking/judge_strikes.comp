@@ -46,9 +46,8 @@ float densityOf(uint body) {
 }
 
 float effectiveMass(uint body, vec3 arm, vec3 along, float radius) {
-    vec3 lever = cross(arm, along);
-    float ball = densityOf(body) * 4.18879 * radius * radius * radius, inverse_mass = bodies[body].offset.w;
-    float turning = inverse_mass > 0.0 ? dot(lever, worldInertia(ownInverseInertia(shapes[body]), bodies[body].turn) * lever) : 0.0;
+    float ball = densityOf(body) * 4.18879 * radius * radius * radius, inverse_mass = bodies[body].offset.w, turning = 0.0;
+    if (inverse_mass > 0.0) turning = turningYield(worldInertia(ownInverseInertia(shapes[body]), bodies[body].turn), arm, along);
     return 1.0 / (1.0 / ball + inverse_mass + turning);
 }
 

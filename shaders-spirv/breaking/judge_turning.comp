@@ -29,12 +29,11 @@ layout(push_constant) uniform Push {
 
 float yieldOf(uint body, Flight f, vec3 arm, vec3 normal) {
     if (!movesOf(body)) return 0.0;
-    vec3 lever = cross(arm, normal);
-    return solver_bodies[body].velocity.w + dot(lever, worldInertia(ownInverseInertia(shapes[body]), f.turn) * lever);
+    return solver_bodies[body].velocity.w + turningYield(worldInertia(ownInverseInertia(shapes[body]), f.turn), arm, normal);
 }
 
 // As the body stands now.
-vec4 armNow(uint body, Flight f, vec3 arm) { return vec4(turned(bodies[body].turn, turned(turnBack(f.turn), arm)), 0.0); }
+vec3 armNow(uint body, Flight f, vec3 arm) { return turned(bodies[body].turn, turned(turnBack(f.turn), arm)); }
 
 void main() {
     uint k = flatIndex();
@@ -48,11 +47,6 @@ void main() {
     if (c.closing <= 0.0 || speed <= 0.0 || yield_ <= 0.0) return;
     float time = t.arm_a.w + c.separation / c.closing;
     if (time > duration + AHEAD_OF_STEP * gravity.w) return;
-    BlowRecord record;
-    record.sides = uvec4(0u, floatBitsToUint(max(time, 0.0) / duration), 0u, 0u);
-    record.blow = vec4(1.0 / yield_, speed, 0.5 * speed * speed / yield_, clamp(time / duration, 0.0, 1.0));
-    record.arm_a = armNow(t.ids.y, c.a, c.middle_a);
-    record.arm_b = armNow(t.ids.z, c.b, c.middle_b);
-    record.along = vec4(normal, 0.0);
-    tellBlow(t.ids.x, t.ids.yz, record);
+    vec3 arm_a = armNow(t.ids.y, c.a, c.middle_a), arm_b = armNow(t.ids.z, c.b, c.middle_b);
+    tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, speed, max(time, 0.0) / duration, arm_a, arm_b, normal));
 }

@@ -18,10 +18,7 @@ Mover moverOf(uint body, vec3 arm) {
 
 vec3 velocityOf(Mover m) { return bodies[m.body].velocity.xyz + cross(bodies[m.body].spin.xyz, m.arm); }
 
-float yieldOf(Mover m, vec3 n) {
-    vec3 lever = cross(m.arm, n);
-    return m.inverse_mass + dot(lever, m.inverse * lever);
-}
+float yieldOf(Mover m, vec3 n) { return m.inverse_mass + turningYield(m.inverse, m.arm, n); }
 
 // Of the blow, from the center of mass of the body that it breaks, as that stands now.
 vec3 placeOfBlow(uint k) { return turned(bodies[broken[k].ids.x].turn, broken[k].place.xyz); }

@@ -32,6 +32,12 @@ uint sidesThatBreak(uvec2 ids, BlowRecord record) {
     return (a ? BREAKS_A : 0u) | (b ? BREAKS_B : 0u);
 }
 
+// `share`: of the step that is over when they meet; it may lie behind its end by as much as the solver looks ahead.
+BlowRecord blowAt(float yield_, float speed, float share, vec3 arm_a, vec3 arm_b, vec3 normal) {
+    return BlowRecord(uvec4(0u, floatBitsToUint(share), 0u, 0u), vec4(1.0 / yield_, speed, 0.5 * speed * speed / yield_, min(share, 1.0)),
+                      vec4(arm_a, 0.0), vec4(arm_b, 0.0), vec4(normal, 0.0));
+}
+
 void tellBlow(uint pair, uvec2 ids, BlowRecord record) {
     record.sides.x = sidesThatBreak(ids, record);
     if (record.sides.x == 0u) return;

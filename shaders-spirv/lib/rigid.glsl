@@ -14,6 +14,12 @@ mat3 worldInertia(mat3 own, vec4 turn) {
     return axes * own * transpose(axes);
 }
 
+// How much speed along the normal an impulse along it gives at the arm, by turning the body alone.
+float turningYield(mat3 inverse_inertia, vec3 arm, vec3 normal) {
+    vec3 lever = cross(arm, normal);
+    return dot(lever, inverse_inertia * lever);
+}
+
 vec3 spinOf(mat3 own_inverse, vec4 turn, vec3 momentum) { return turned(turn, own_inverse * turned(turnBack(turn), momentum)); }
 
 // A turn about one of the own axes, after which own components of a vector that stays in the world are those of `own`.

@@ -10,6 +10,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/component.glsl"
 #include "shared/body.h"
 #include "shared/contact.h"
 #include "shared/hull.h"
@@ -107,7 +108,7 @@ vec4 squaresOf(uvec4 faces) {
     vec4 squares = vec4(0.0);
     for (uint k = 0u; k < ROLLED(4); k++) {
         float square = dot(normalOf(k < 2u, faces[k]), k < 2u ? found.axis.xyz : -found.axis.xyz);
-        squares = mix(squares, vec4(square), equal(uvec4(k), uvec4(0u, 1u, 2u, 3u)));
+        squares = withComponent(squares, k, square);
     }
     return squares;
 }

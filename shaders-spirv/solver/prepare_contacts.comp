@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
+#include "lib/component.glsl"
 #include "lib/solver_body.glsl"
 #include "lib/effect.glsl"
 #include "shared/body.h"
@@ -45,8 +46,6 @@ vec3 rubMass(Pair p, vec3 arm_a, vec3 arm_b, vec3 u, vec3 v) {
 // others, such as the noise of opposite corners against the other two (Tikhonov 1963). Impulses are as even as they can be.
 const float kDoubt = 0.02; // d, of the mean diagonal
 
-bvec4 isPlace(uint k) { return equal(uvec4(k), uvec4(0u, 1u, 2u, 3u)); }
-
 mat4 pressMass(uint pair, uint points, Pair p, vec3 normal) {
     mat4 yields = mat4(1.0);
     float trace = 0.0;
@@ -57,7 +56,7 @@ mat4 pressMass(uint pair, uint points, Pair p, vec3 normal) {
         for (uint j = 0u; j < points; j++) {
             float yield_ = p.a.inverse_mass + p.b.inverse_mass + dot(cross(memory[pair].arm_a[j].xyz + p.slid_a, normal), twist_a) +
                            dot(cross(memory[pair].arm_b[j].xyz + p.slid_b, normal), twist_b);
-            column = mix(column, vec4(yield_), isPlace(j));
+            column = withComponent(column, j, yield_);
             trace += j == i ? yield_ : 0.0;
         }
         for (uint k = 0u; k < MANIFOLD_POINTS; k++) yields[k] = k == i ? column : yields[k];
@@ -103,7 +102,7 @@ void main() {
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
     if (kFriction != 0u) solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
     vec4 loads = vec4(0.0);
-    for (uint k = 0u; k < points; k++) loads = mix(loads, vec4(float(LOAD_CARRIED) * memory[pair].arm_b[k].w), isPlace(k));
+    for (uint k = 0u; k < points; k++) loads = withComponent(loads, k, float(LOAD_CARRIED) * memory[pair].arm_b[k].w);
     solver_contacts[c].loads = loads;
     vec3 rub_mass = vec3(0.0);
     if (kFriction != 0u) rub_mass = rubMass(p, center_a + p.slid_a, center_b + p.slid_b, tangent.xyz, cross(normal.xyz, tangent.xyz));

@@ -95,13 +95,19 @@ TEST(BreakingBudgets, WhatNoStepHasRoomForSaysWhichBudgetLacksHowMuch) {
     EXPECT_EQ(events[0].lacked.y, 0u);
 }
 
+engine::Result<std::unique_ptr<brittle::World>> tryWorldOfABall(const brittle::BreakingBudget& breaking) {
+    const SceneDescription scene = sceneOf({ball({0, 1, 0}, "glass")});
+    brittle::WorldBudget budget;
+    budget.breaking = breaking;
+    return brittle::World::create(engine_test::device(), *brittle::contentsOf(scene, {}, nullptr), *brittle::settingsOf(scene),
+                                  budget);
+}
+
 TEST(BreakingBudgets, BudgetsOfOneFragmentAreRefused) {
-    const SceneDescription scene = sceneOf({ball({0, 3, 0}, "glass")});
     for (const auto budget_of : {&brittle::BreakingBudget::most_fragments, &brittle::BreakingBudget::step_sites}) {
-        brittle::WorldBudget budget;
-        budget.breaking.*budget_of = 1;
-        const auto refused = brittle::World::create(engine_test::device(), *brittle::contentsOf(scene, {}, nullptr),
-                                                    *brittle::settingsOf(scene), budget);
+        brittle::BreakingBudget budget;
+        budget.*budget_of = 1;
+        const auto refused = tryWorldOfABall(budget);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, engine::ErrorCode::BadInput);
         EXPECT_NE(refused.error().message.find("a budget of one"), std::string::npos) << refused.error().message;
@@ -109,15 +115,8 @@ TEST(BreakingBudgets, BudgetsOfOneFragmentAreRefused) {
 }
 
 TEST(BreakingBudgets, MoreFragmentsThanPoolsHoldAreRefusedByName) {
-    const auto create = [](uint32_t fragments) {
-        const SceneDescription scene = sceneOf({ball({0, 1, 0}, "glass")});
-        brittle::WorldBudget budget;
-        budget.breaking.fragments = fragments;
-        return brittle::World::create(engine_test::device(), *brittle::contentsOf(scene, {}, nullptr),
-                                      *brittle::settingsOf(scene), budget);
-    };
-    EXPECT_TRUE(create(4000));
-    const auto refused = create(5000);
+    EXPECT_TRUE(tryWorldOfABall({.fragments = 4000}));
+    const auto refused = tryWorldOfABall({.fragments = 5000});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, engine::ErrorCode::Capacity);
     EXPECT_NE(refused.error().message.find("a budget of 5000 fragments"), std::string::npos) << refused.error().message;

@@ -61,9 +61,8 @@ public:
         s.record.commands().beginLabel("blows");
         s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
         s.record.commands().fill(p_.chosen, NO_INDEX);
-        const gpu::vec4 gravity = solverPush(s).gravity;
-        const float find[] = {gravity.x, gravity.y, gravity.z, gravity.w, static_cast<float>(s.settings.dt)};
-        s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), find,
+        const MeetingPush meeting = meetingPush(s);
+        s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), meeting,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
                       s.b.steps, p_.blows, p_.hardest, p_.turning});
         if (auto recorded = recordTurning(s, l_, p_); !recorded) return recorded;
@@ -74,7 +73,7 @@ public:
                      {world, s.now.contacts, p_.blows, p_.hardest, p_.chosen});
         s.record.run("hold_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
                      {world, s.now.contacts, s.b.bodies, p_.blows, p_.chosen, s.b.step.touches, s.b.step.shares});
-        s.record.run("leave_unmet", Length::counted(COUNT_STRUCK), find,
+        s.record.run("leave_unmet", Length::counted(COUNT_STRUCK), meeting,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.shares, p_.blows, p_.chosen,
                       s.b.step.touches});
         if (struck) strikes_->recordChoice(s, p_);

@@ -7,6 +7,13 @@
 
 namespace brittle {
 
+// Of kernels that ask how bodies will meet.
+struct MeetingPush {
+    float gravity[4]; // w: length of a substep, s
+    float duration;   // of the step, s
+};
+MeetingPush meetingPush(const Step& step);
+
 // Behind find_blows, which lists them. The manifolds of the step are used up by then, and their memory is used once more.
 engine::Result<void> recordTurning(const Step& step, const LastingBuffers& lasting, const PassingBuffers& passing);
 

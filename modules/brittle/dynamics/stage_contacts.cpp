@@ -32,18 +32,11 @@ void recordRecall(const Step& s) {
     s.record.run("list_fresh", kPairs, engine::NoPush{}, {r.counts(), s.now.pairs, b.fresh_slots, b.fresh_pairs});
 }
 
-engine::Result<void> recordPoints(const Step& s) {
-    const StepBuffers& b = s.b.step;
-    NarrowPhaseInput input = {
-        s.b.hulls(), s.b.pieces, s.b.bodies, b.fresh_pairs, s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4), s.b.sizes.pairs};
+engine::Result<void> recordFreshPoints(const Step& s) {
+    NarrowPhaseInput input = {s.b.hulls(), s.b.pieces, s.b.bodies, s.b.step.fresh_pairs,
+                              s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4), s.b.sizes.pairs};
     if (s.has(Effect::ImpactFracture)) input.siblings = {s.b.births, s.b.steps};
-    NarrowPhaseOptions options;
-    options.speculative = static_cast<float>(s.settings.margin);
-    options.duration = sweptFor(s);
-    options.gravity = toFloat(s.settings.gravity);
-    options.fixed_axes = s.settings.fixed_axes;
-    return recordNarrowPhase(s.record.commands(), s.kernels, input, options, {b.manifolds, b.axes, b.narrow_arguments},
-                             s.many_lanes);
+    return recordPoints(s, input, toFloat(s.settings.gravity));
 }
 
 void recordMemory(const Step& s) {
@@ -75,12 +68,23 @@ void recordBoxes(const Step& s) {
     s.record.commands().endLabel();
 }
 
+engine::Result<void> recordPoints(const Step& s, const NarrowPhaseInput& input, const Float3& gravity) {
+    const StepBuffers& b = s.b.step;
+    NarrowPhaseOptions options;
+    options.speculative = static_cast<float>(s.settings.margin);
+    options.duration = sweptFor(s);
+    options.gravity = gravity;
+    options.fixed_axes = s.settings.fixed_axes;
+    return recordNarrowPhase(s.record.commands(), s.kernels, input, options, {b.manifolds, b.axes, b.narrow_arguments},
+                             s.many_lanes);
+}
+
 engine::Result<void> recordContacts(const Step& s) {
     if (!s.has(Effect::Contacts)) return {};
     recordBroadPhase(s.record, broadPhaseOf(s));
     s.record.commands().beginLabel("narrow_phase");
     recordRecall(s);
-    if (auto recorded = recordPoints(s); !recorded) return recorded;
+    if (auto recorded = recordFreshPoints(s); !recorded) return recorded;
     recordMemory(s);
     s.record.commands().endLabel();
     return {};

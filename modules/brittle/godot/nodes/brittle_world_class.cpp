@@ -1,5 +1,6 @@
 // What the engine and its inspector know of BrittleWorld3D.
 #include "modules/brittle/godot/nodes/brittle_world.h"
+#include "modules/brittle/godot/nodes/budgets.h"
 #include "modules/brittle/godot/nodes/field_property.h"
 
 namespace brittle_godot {
@@ -55,20 +56,10 @@ void describeBreaking(ClassRecord& r) {
 }
 
 void describeBudget(ClassRecord& r) {
-    const auto budget = [&](const char* name, uint32_t& (*field)(W&)) {
-        countProperty<W>(r, name, range("0,65536,1,or_greater"), field);
-    };
     r.group("Budget, 0: chosen", "budget_");
-    budget("budget_pairs", [](W& w) -> uint32_t& { return w.def.budget.pairs; });
-    budget("budget_contacts", [](W& w) -> uint32_t& { return w.def.budget.contacts; });
-    budget("budget_fragments", [](W& w) -> uint32_t& { return w.def.budget.fragments; });
-    budget("budget_fragment_faces", [](W& w) -> uint32_t& { return w.def.budget.fragment_faces; });
-    budget("budget_fragment_triangles", [](W& w) -> uint32_t& { return w.def.budget.fragment_triangles; });
-    budget("budget_most_fragments", [](W& w) -> uint32_t& { return w.def.budget.most_fragments; });
-    budget("budget_breaking_bodies", [](W& w) -> uint32_t& { return w.def.budget.breaking_bodies; });
-    budget("budget_breaking_sites", [](W& w) -> uint32_t& { return w.def.budget.breaking_sites; });
-    budget("budget_breaking_triangles", [](W& w) -> uint32_t& { return w.def.budget.breaking_triangles; });
-    budget("budget_dust", [](W& w) -> uint32_t& { return w.def.budget.dust; });
+    for (const auto& [name, amount] : kBudgets)
+        countProperty<W>(r, name, range("0,65536,1,or_greater"),
+                         [amount = amount](W& w) -> uint32_t& { return w.def.budget.*amount; });
 }
 
 void describeRunning(ClassRecord& r) {

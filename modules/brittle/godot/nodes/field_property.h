@@ -16,8 +16,8 @@ void numberProperty(ClassRecord& record, const char* name, const char* range_tex
 }
 
 // Of counts, choices and flags; what is below 0 is 0.
-template <class Node>
-void countProperty(ClassRecord& record, const char* name, const Hint& hint, uint32_t& (*field)(Node&)) {
+template <class Node, class Field>
+void countProperty(ClassRecord& record, const char* name, const Hint& hint, Field field) {
     record.property(
         name, Type::Int, hint,
         [field](Instance& i, const Value& v) {

@@ -1,25 +1,17 @@
 // How a BrittleWorld3D takes in what its world tells: places what moved, shows fragments, and says what broke.
 #include "modules/brittle/godot/interface/messages.h"
 #include "modules/brittle/godot/nodes/brittle_world.h"
+#include "modules/brittle/godot/nodes/budgets.h"
 
 #include <string>
-#include <utility>
 
 namespace brittle_godot {
 namespace {
 
-// By the names of the properties that can be raised.
 std::string lackedIn(const BrittleBudget& lacked) {
-    const std::pair<const char*, uint32_t> budgets[] = {{"pairs", lacked.pairs},
-                                                        {"contacts", lacked.contacts},
-                                                        {"fragments", lacked.fragments},
-                                                        {"fragment_faces", lacked.fragment_faces},
-                                                        {"fragment_triangles", lacked.fragment_triangles},
-                                                        {"breaking_triangles", lacked.breaking_triangles},
-                                                        {"breaking_sites", lacked.breaking_sites}};
     std::string text;
-    for (const auto& [name, amount] : budgets)
-        if (amount > 0) text += std::string("; budget_") + name + " lacks " + std::to_string(amount);
+    for (const auto& [name, amount] : kBudgets)
+        if (lacked.*amount > 0) text += std::string("; ") + name + " lacks " + std::to_string(lacked.*amount);
     return text;
 }
 
