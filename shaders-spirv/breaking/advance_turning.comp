@@ -31,28 +31,38 @@ layout(push_constant) uniform Push {
     uint is_first;
 };
 #include "lib/turning_contact.glsl"
+#include "lib/rim_speed.glsl"
 
 const float kFurthest = 2.0; // steps ahead
 const float kBack = 1.0;
 
-// Bodies that part, or have no points, do not meet.
-void setTime(uint k, inout TurningBlow t) {
-    t.ids.w = 1u;
-    if (manifolds[k].info.x == 0u) return;
-    TurningContact c = contactOf(k, t);
-    if (!(c.closing > 0.0)) return;
-    t.ids.w = 0u;
-    t.arm_a = vec4(turned(turnBack(c.a.turn), c.arm_a), clamp(t.arm_a.w + c.separation / c.closing, -kBack * duration, kFurthest * duration));
-    t.arm_b = vec4(turned(turnBack(c.b.turn), c.arm_b), 0.0);
+// Where no point comes closer, or there is none, another may: they go on for as long as they cannot meet along the axis, or, where that
+// is not known, along any (conservative advancement, Mirtich 1996).
+void goCloser(float gap, vec3 axis, inout TurningBlow t) {
+    vec3 apart = bodies[t.ids.z].velocity.xyz - bodies[t.ids.y].velocity.xyz;
+    float nearing = axis == vec3(0.0) ? length(apart) : -dot(axis, apart);
+    float closing = nearing + duration * length(gravity.xyz) + rimSpeed(t.ids.y) + rimSpeed(t.ids.z);
+    t.ids.w = gap > 0.0 && closing > 0.0 ? 0u : 1u;
+    t.time = vec4(t.time.x + gap / closing, t.time.x, gap, 0.0);
 }
 
-// Its velocity is that of the place where they meet, so that the narrow phase looks ahead along the way of that.
-void pose(uint slot, uint body, uint piece, vec3 own_arm, float time) {
+void setTime(uint k, inout TurningBlow t) {
+    bool has_points = manifolds[k].info.x != 0u;
+    TurningContact c = contactOf(k, t);
+    if (!has_points) goCloser(manifolds[k].normal.w, vec3(0.0), t);
+    else if (c.closing <= 0.0 && !isWithin(c, t)) goCloser(c.separation, manifolds[k].normal.xyz, t);
+    else t.time = vec4(meetingTime(c, t), c.separation > 0.0 ? vec2(t.time.x, c.separation) : t.time.yz, 0.0);
+    if (t.time.x > kFurthest * duration) t.ids.w = 1u;
+    t.time.x = max(t.time.x, -kBack * duration);
+}
+
+void pose(uint slot, uint body, uint piece, float time) {
     BodyState b = bodies[body];
     Flight f = flightOf(body, movesOf(body), time);
     b.offset.xyz += f.way;
     b.turn = f.turn;
-    b.velocity.xyz = velocityAt(f, turned(f.turn, own_arm));
+    b.velocity.xyz = f.velocity;
+    b.spin.xyz = f.spin;
     posed_bodies[slot] = b;
     posed_pieces[slot].ids = uvec4(pieces[piece].ids.x, slot, pieces[piece].ids.zw);
 }
@@ -64,8 +74,8 @@ void main() {
     if (is_first == 0u && t.ids.w == 0u) setTime(k, t);
     turning[k] = t;
     uvec2 of = pairs[t.ids.x];
-    pose(2u * k, t.ids.y, of.x, t.arm_a.xyz, t.arm_a.w);
-    pose(2u * k + 1u, t.ids.z, of.y, t.arm_b.xyz, t.arm_a.w);
+    pose(2u * k, t.ids.y, of.x, t.time.x);
+    pose(2u * k + 1u, t.ids.z, of.y, t.time.x);
     posed_pairs[k] = uvec2(2u * k, 2u * k + 1u);
     axes[k].info.x = AXIS_UNKNOWN;
 }

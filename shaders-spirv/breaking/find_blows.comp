@@ -21,67 +21,97 @@ READS(7, uint, steps);
 WRITES(8, BlowRecord, blows);
 UPDATES(9, uint, hardest); // energy of each body's hardest blow, as bits: of floats that are not negative the order is the same
 WRITES(10, TurningBlow, turning); // in any order: each is told of at its pair
+READS(11, BodyShape, shapes);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of a substep, s
     float duration; // of the step, s
 };
+#include "lib/blow_place.glsl"
+#include "lib/component.glsl"
 #include "lib/judge_blow.glsl"
 #include "lib/meeting.glsl"
+#include "lib/rim_speed.glsl"
 
 const float kTurned = 1e-3; // rad: by no more, a blow is the same
 // What turns may meet so much later than it seems, and so much faster.
 const float kLater = 1.5, kFaster = 1.5;
+const float kSwift = 0.1; // rad in a step: what turns by more may meet though it has no points yet
 
 struct Meeting {
     BlowRecord record;
+    float separation;
     float time; // s until then, with points that overlap before now
 };
 
-// Where and when they meet if they go on as they do: the middle of the points, as the bodies stand now.
+// Where and when they meet if they go on as they do, as the bodies stand now.
 bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
     Pair p = pairNow(pair, ids);
     uint points = min(ids.z, MANIFOLD_POINTS);
-    vec3 arm_a = vec3(0.0), arm_b = vec3(0.0);
-    float separation = 3e38;
+    vec4 separations = vec4(0.0), closings = vec4(kNoPoint);
     for (uint k = 0u; k < points; k++) {
-        arm_a += turned(p.turn_a, memory[pair].anchor_a[k].xyz) / float(points);
-        arm_b += turned(p.turn_b, memory[pair].anchor_b[k].xyz) / float(points);
-        separation = min(separation, separationNow(pair, k, p, normal));
+        separations = withComponent(separations, k, separationNow(pair, k, p, normal));
+        closings = withComponent(closings, k, -partingAt(p, armOfA(pair, k, p), armOfB(pair, k, p), normal));
     }
+    float separation;
+    vec4 weights = weightsOf(separations, closings, separation);
+    vec3 arm_a = vec3(0.0), arm_b = vec3(0.0);
+    for (uint k = 0u; k < points; k++) {
+        arm_a += weights[k] * armOfA(pair, k, p);
+        arm_b += weights[k] * armOfB(pair, k, p);
+    }
+    roundArms(ids.xy, normal, arm_a, arm_b);
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
-    float now = dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), then = speedOfMeeting(now, separation, p, normal, gravity);
+    float now = partingAt(p, arm_a, arm_b, normal), then = speedOfMeeting(now, separation, p, normal, gravity);
     float apart = max(separation, 0.0), mean = -0.5 * (now + then);
     if (yield_ <= 0.0 || !(then < 0.0)) return false;
-    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation / mean);
+    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation, separation / mean);
     return true;
 }
+
+float horizon() { return duration + AHEAD_OF_STEP * gravity.w; }
 
 bool turnsUntil(float time, uvec4 ids) {
     float turning_ = length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz);
     return turning_ * min(abs(time), duration) > kTurned;
 }
 
-void listTurning(uint pair, uvec4 ids, Meeting met) {
+// No faster than this they come closer anywhere.
+float mostSpeedOf(uvec4 ids) {
+    vec3 apart = bodies[ids.y].velocity.xyz - bodies[ids.x].velocity.xyz;
+    return length(apart) + gravity.w * length(gravity.xyz) + rimSpeed(ids.x) + rimSpeed(ids.y);
+}
+
+bool isSwift(uvec4 ids) { return duration * (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) > kSwift; }
+
+// `time`: as in TurningBlow.
+void listTurning(uint pair, uvec4 ids, BlowRecord most, vec3 time) {
+    if (sidesThatBreak(ids.xy, most) == 0u) return;
+    turning[atomicAdd(counts[COUNT_TURNING], 1u)] = TurningBlow(uvec4(pair, ids.xy, 0u), vec4(time, 0.0));
+}
+
+void judgeTurning(uint p, uvec4 ids, Meeting met) {
     BlowRecord most = met.record;
     most.blow.yz *= vec2(kFaster, kFaster * kFaster);
-    if (sidesThatBreak(ids.xy, most) == 0u) return;
-    vec3 own_a = turned(turnBack(bodies[ids.x].turn), met.record.arm_a.xyz), own_b = turned(turnBack(bodies[ids.y].turn), met.record.arm_b.xyz);
-    turning[atomicAdd(counts[COUNT_TURNING], 1u)] = TurningBlow(uvec4(pair, ids.xy, 0u), vec4(own_a, 0.0), vec4(own_b, 0.0));
+    if (met.time <= kLater * horizon()) listTurning(p, ids, most, vec3(met.time, 0.0, max(met.separation, 0.0)));
+}
+
+// Where they will touch by then, if they do, may be nowhere near the points that they have now.
+void judgeSwift(uint p, uvec4 ids, bool is_met, Meeting met) {
+    float speed = mostSpeedOf(ids), least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
+    float soonest = ids.z == 0u ? memory[p].place.w / speed : 0.0;
+    vec3 time = is_met ? vec3(min(met.time, horizon()), 0.0, max(met.separation, 0.0)) : vec3(soonest, 0.0, 0.0);
+    if (soonest <= horizon()) listTurning(p, ids, blowAt(least_yield, speed, 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), time);
 }
 
 void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_BOX_PAIRS]) return;
     blows[p].sides = uvec4(0u);
-    if (touches[p] == 0u) return;
     uvec4 ids = memory[p].ids;
-    if (ids.z == 0u || !(canBreak(ids.x) || canBreak(ids.y))) return;
+    if (!(canBreak(ids.x) || canBreak(ids.y)) || (ids.z != 0u && touches[p] == 0u)) return;
     Meeting met;
-    if (!meets(p, ids, memory[p].normal.xyz, met)) return;
-    float horizon = duration + AHEAD_OF_STEP * gravity.w;
-    if (turnsUntil(met.time, ids)) {
-        if (met.time <= kLater * horizon) listTurning(p, ids, met);
-    } else if (met.time <= horizon) {
-        tellBlow(p, ids.xy, met.record);
-    }
+    bool is_met = ids.z != 0u && meets(p, ids, memory[p].normal.xyz, met);
+    if (isSwift(ids)) judgeSwift(p, ids, is_met, met);
+    else if (is_met && turnsUntil(met.time, ids)) judgeTurning(p, ids, met);
+    else if (is_met && met.time <= horizon()) tellBlow(p, ids.xy, met.record);
 }

@@ -20,9 +20,12 @@ READS(7, MaterialCard, cards);
 READS(8, uint, steps);
 UPDATES(9, BlowRecord, blows);
 UPDATES(10, uint, hardest);
+READS(11, ContactMemory, memory);
+WRITES(12, uint, touches);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of a substep, s
-    float duration;
+    float duration; // of the step, s
+    float margin; // m, of contacts
 };
 #include "lib/judge_blow.glsl"
 #include "lib/turning_contact.glsl"
@@ -35,18 +38,32 @@ float yieldOf(uint body, Flight f, vec3 arm, vec3 normal) {
 // As the body stands now.
 vec3 armNow(uint body, Flight f, vec3 arm) { return turned(bodies[body].turn, turned(turnBack(f.turn), arm)); }
 
+// What is sure not to meet in this step is not solved either: the solver takes points for those of a straight way, and would have them
+// meet too early.
+void leave(uint pair) {
+    uvec4 ids = memory[pair].ids;
+    float separation = 3e38;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) separation = min(separation, memory[pair].arm_a[k].w);
+    if (separation > margin) touches[pair] = 0u;
+}
+
+void judge(uint k, TurningBlow t, TurningContact c, float time) {
+    vec3 normal = manifolds[k].normal.xyz;
+    float yield_ = yieldOf(t.ids.y, c.a, c.arm_a, normal) + yieldOf(t.ids.z, c.b, c.arm_b, normal);
+    if (yield_ <= 0.0) return;
+    vec3 arm_a = armNow(t.ids.y, c.a, c.arm_a), arm_b = armNow(t.ids.z, c.b, c.arm_b);
+    tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, c.closing, max(time, 0.0) / duration, arm_a, arm_b, normal));
+}
+
 void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_TURNING]) return;
     TurningBlow t = turning[k];
-    if (t.ids.w != 0u || manifolds[k].info.x == 0u) return;
+    float horizon = duration + AHEAD_OF_STEP * gravity.w, time = t.time.x;
+    bool has_points = t.ids.w == 0u && manifolds[k].info.x != 0u;
     TurningContact c = contactOf(k, t);
-    vec3 normal = manifolds[k].normal.xyz;
-    float yield_ = yieldOf(t.ids.y, c.a, c.middle_a, normal) + yieldOf(t.ids.z, c.b, c.middle_b, normal);
-    float speed = -dot(normal, velocityAt(c.b, c.middle_b) - velocityAt(c.a, c.middle_a));
-    if (c.closing <= 0.0 || speed <= 0.0 || yield_ <= 0.0) return;
-    float time = t.arm_a.w + c.separation / c.closing;
-    if (time > duration + AHEAD_OF_STEP * gravity.w) return;
-    vec3 arm_a = armNow(t.ids.y, c.a, c.middle_a), arm_b = armNow(t.ids.z, c.b, c.middle_b);
-    tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, speed, max(time, 0.0) / duration, arm_a, arm_b, normal));
+    bool comes = has_points && c.closing > 0.0;
+    if (comes) time = meetingTime(c, t);
+    if (time > horizon) leave(t.ids.x);
+    else if (comes) judge(k, t, c, time);
 }

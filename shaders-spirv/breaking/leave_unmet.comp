@@ -51,8 +51,8 @@ void main() {
     vec3 normal = memory[p].normal.xyz;
     bool is_met = false;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
-        vec3 arm_a = turned(pair.turn_a, memory[p].anchor_a[k].xyz), arm_b = turned(pair.turn_b, memory[p].anchor_b[k].xyz);
-        float closed = comesBy(pair.a, arm_a, normal, share_a) + comesBy(pair.b, arm_b, -normal, share_b);
+        float closed =
+            comesBy(pair.a, armOfA(p, k, pair), normal, share_a) + comesBy(pair.b, armOfB(p, k, pair), -normal, share_b);
         is_met = is_met || separationNow(p, k, pair, normal) <= kSooner * max(closed, 0.0);
     }
     if (!is_met) touches[p] = 0u;

@@ -12,6 +12,7 @@ READS(2, SolverContact, solver_contacts);
 READS(3, SolverBody, solver_bodies);
 WRITES(4, float, hits); // J, 0 for none
 UPDATES(5, uint, told);
+READS(6, ContactMemory, memory);
 layout(push_constant) uniform Push { float least_speed; };
 #include "lib/impact.glsl"
 

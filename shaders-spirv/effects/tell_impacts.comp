@@ -21,6 +21,7 @@ WRITES(6, ImpactEvent, ring);
 READS(7, BodyState, bodies); // as they stood when the step began
 READS(8, BreakableBody, breakable);
 READS(9, uint, steps);
+READS(10, ContactMemory, memory);
 layout(push_constant) uniform Push {
     float least_speed;
     uint breaks; // 0: nothing does, and `breakable` is something else

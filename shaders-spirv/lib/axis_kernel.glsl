@@ -60,7 +60,7 @@ bool isKnown(uint k) { return kSiblings != 0u && axis_records[k].info.x != AXIS_
 
 bool isHit(Seen seen) { return is_fast && seen.separation > 0.0 && seen.enter >= 0.0 && seen.enter <= min(seen.leave, 1.0); }
 
-bool isApart(Seen seen) { return seen.separation > pair.margin && !isHit(seen); }
+bool isApart(Seen seen) { return seen.separation > pair.margin + pair.reach && !isHit(seen); }
 
 // B's best instead of A's where it is better for certain, in both respects; what either has seen counts for leaving.
 Seen betterOf(Seen a, Seen b) {

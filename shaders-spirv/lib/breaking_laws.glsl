@@ -34,7 +34,7 @@ float favorOf(float joules) { return 1.0 - exp2(-joules); }
 
 // The paper's sites lie about the middle as well: a plate that is hit beside it has them in two places, and as much crack as if the
 // nearest candidate were taken less often. `off`: how far from the middle, of its side. Measured in worlds.
-const float kPaperOff = 0.31, kPaperAside = 0.3;
+const float kPaperOff = 0.5, kPaperAside = 0.3;
 float favorInPlate(float joules, float off) { return favorOf(joules) * (1.0 - kPaperOff * min(off / kPaperAside, 1.0)); }
 
 float crowdingOf(float few, float more, float count) { return few + more * inversesqrt(count); }

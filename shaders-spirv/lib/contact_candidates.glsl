@@ -21,6 +21,7 @@ vec3 incident_at[FACE_CORNERS]; // z: above the reference face
 vec4 candidate_at[CANDIDATES];  // w: name, as bits
 uint reference_count, incident_count, candidate_count;
 float slack; // by which a point may lie beside the reference face
+vec3 closing; // how far the faces come closer where they turn: how it grows along u and v, and where both are 0
 
 void spanPlane(vec3 n) {
     vec3 size = abs(n);
@@ -33,6 +34,12 @@ void spanPlane(vec3 n) {
 void tiltPlane(vec3 normal, vec3 from) {
     vec2 slope = -vec2(dot(normal, plane.u), dot(normal, plane.v)) / dot(normal, plane.n);
     plane.height = vec3(slope, dot(plane.n, from) - dot(slope, vec2(dot(plane.u, from), dot(plane.v, from))));
+}
+
+// The same all along n, which is the axis: turns about it change no heights.
+void closePlane() {
+    vec4 along = closingAlong(pair, found.axis.xyz, found.shift.xyz);
+    closing = vec3(dot(along.xyz, plane.u), dot(along.xyz, plane.v), along.w);
 }
 
 float heightAt(vec2 at) { return dot(plane.height.xy, at) + plane.height.z; }
@@ -51,7 +58,7 @@ void addAnyway(vec3 at, uint line, uint other) {
 }
 
 void addCandidate(vec3 at, uint line, uint other) {
-    if (at.z <= pair.margin) addAnyway(at, line, other);
+    if (at.z <= pair.margin + max(dot(closing, vec3(at.xy, 1.0)), 0.0)) addAnyway(at, line, other);
 }
 
 // Outward, unit, of the side from p to q of a polygon that is counterclockwise; 0 where it has no length.

@@ -1,5 +1,5 @@
-// A body on its own, some time after the step has begun or before: how it stands, and how it moves. Wants `bodies`, `shapes` and
-// `gravity`, whose w is the length of a substep, declared.
+// A body on its own, some time after the step has begun or before: how it stands, and how it moves. Wants `bodies`, `shapes`,
+// `solver_bodies` and `gravity`, whose w is the length of a substep, declared.
 #include "lib/rigid.glsl"
 
 struct Flight {
@@ -14,7 +14,7 @@ Flight flightOf(uint body, bool moves, float time) {
     if (!moves) return Flight(b.turn, vec3(0.0), vec3(0.0), vec3(0.0));
     mat3 own = ownInverseInertia(shapes[body]);
     vec4 turn = turnFreely(vec3(own[0][0], own[1][1], own[2][2]), b.turn, b.momentum.xyz, time);
-    vec3 start = b.velocity.xyz + 0.5 * gravity.w * gravity.xyz;
+    vec3 start = solver_bodies[body].velocity.xyz + 0.5 * gravity.w * gravity.xyz;
     return Flight(turn, time * (start + 0.5 * time * gravity.xyz), start + time * gravity.xyz, spinOf(own, turn, b.momentum.xyz));
 }
 

@@ -14,9 +14,11 @@ struct HullPair {
     vec3 place[2];   // of the hull's center
     vec4 turn;       // the frame's axes to the world's
     vec3 motion;     // of B relative to A over the step
+    vec3 turning[2]; // rad, of both over the step, where that moves points by more than the margin
     float smaller;   // of the two radii
     float rounding;  // what heights in this frame may be off by
     float margin;    // points with this separation still count
+    float reach;     // by how much any point may come closer, at most, where they turn
     float plane_reach; // to each side, of the hull that stands for a plane
 };
 
@@ -42,6 +44,8 @@ void loadPlaces(inout HullPair pair, float duration, vec3 gravity) {
     if (pair.planes != 0u) pair.place[1] = dot(up, pair.place[1]) * up;
     vec3 falling = gravity * ((b.offset.w > 0.0 ? 1.0 : 0.0) - (a.offset.w > 0.0 ? 1.0 : 0.0));
     pair.motion = turned(back, b.velocity.xyz - a.velocity.xyz + duration * falling);
+    pair.turning[0] = turned(back, duration * a.spin.xyz);
+    pair.turning[1] = turned(back, duration * b.spin.xyz);
 }
 
 // What stands for a plane is no wider than the other hull calls for: far corners would round by more than a chip is thick.
@@ -53,6 +57,21 @@ void boundPlane(inout HullPair pair) {
     pair.plane_reach = kPlaneShare * (radius + abs(above)) + 2.0 * length(pair.motion);
     pair.smaller = radius;
     pair.rounding = kRounding * (2.0 * radius + length(pair.place[1]));
+}
+
+vec3 centerOfMass(HullPair pair, uint side) { return pair.place[side] - pair.axes[side] * pair.hull[side].center.xyz; }
+
+float reachOf(HullPair pair, uint side) {
+    float turning = length(pair.turning[side]);
+    return turning > 0.0 ? turning * (length(pair.hull[side].center.xyz) + pair.hull[side].center.w) : 0.0;
+}
+
+// What turns slowly is found by the margin.
+void boundTurning(inout HullPair pair) {
+    float reach = reachOf(pair, 0u) + reachOf(pair, 1u);
+    bool is_swift = reach > pair.margin;
+    pair.reach = is_swift ? reach + length(pair.motion) : 0.0;
+    if (!is_swift) pair.turning[0] = pair.turning[1] = vec3(0.0);
 }
 
 HullPair loadPair(uvec2 of, NarrowPhasePush push) {
@@ -70,7 +89,16 @@ HullPair loadPair(uvec2 of, NarrowPhasePush push) {
     pair.plane_reach = 0.0;
     if (pair.planes != 0u) boundPlane(pair);
     pair.margin = min(push.speculative, kMarginShare * pair.smaller);
+    boundTurning(pair);
     return pair;
+}
+
+// How far points of hulls that turn come closer along an axis from A to B, negative where they part: at p, dot of p with xyz, and w.
+// `shift`: by which B has gone already. 0 of hulls that do not turn, or slowly: these are moved to where they meet.
+vec4 closingAlong(HullPair pair, vec3 axis, vec3 shift) {
+    if (pair.reach == 0.0) return vec4(0.0);
+    vec3 of_a = cross(axis, pair.turning[0]), of_b = cross(axis, pair.turning[1]);
+    return vec4(of_a - of_b, dot(of_b, centerOfMass(pair, 1u)) - dot(of_a, centerOfMass(pair, 0u)) - dot(axis, pair.motion - shift));
 }
 
 vec3 cornerAt(HullPair pair, bool of_a, uint vertex) {

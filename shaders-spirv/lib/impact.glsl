@@ -1,5 +1,5 @@
 // How hard a contact was hit in a step: by what its points came in with, and over all of those that were pressed. Wants
-// `solver_contacts` and `solver_bodies` declared.
+// `solver_contacts`, `solver_bodies` and `memory`, as it was when the step began, declared.
 #include "lib/solver_body.glsl"
 
 struct Impact {
@@ -8,8 +8,11 @@ struct Impact {
     vec3 arm_a, arm_b; // of the middle of these points, when the step began
 };
 
-// Each of them alone; what lies there is pressed as well, but comes in with no speed.
-bool isHit(SolverPoint p, float least_speed) { return p.pulse.y > 0.0 && p.pulse.z < -least_speed; }
+// Each of them alone; what lies there is pressed as well, but comes in with no speed. What was braked in the last substep of the step
+// before, so that it comes to lie in this one's first, has been told of then.
+bool isHit(SolverPoint p, float carried, float least_speed) {
+    return p.pulse.y > 0.0 && p.pulse.z < -least_speed && carried != float(HIT_LAST);
+}
 
 Impact impactOf(uint c, float least_speed) {
     uvec4 ids = solver_contacts[c].ids;
@@ -17,7 +20,7 @@ Impact impactOf(uint c, float least_speed) {
     Impact impact = Impact(0u, 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0));
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         SolverPoint p = solver_contacts[c].points[k];
-        if (!isHit(p, least_speed)) continue;
+        if (!isHit(p, memory[ids.w].arm_b[k].w, least_speed)) continue;
         impact.points++;
         impact.speed -= p.pulse.z;
         impact.arm_a += p.arm_a.xyz;
@@ -32,7 +35,8 @@ Impact impactOf(uint c, float least_speed) {
     float yield_ = yieldAlong(a, impact.arm_a, normal, normal) + yieldAlong(b, impact.arm_b, normal, normal);
     impact.mass = yield_ > 0.0 ? 1.0 / yield_ : 0.0;
     float leaves = dot(normal, velocityAt(b, impact.arm_b) - velocityAt(a, impact.arm_a));
-    impact.impulse = max(impact.mass * (impact.speed + leaves), 0.0);
+    // What still comes in by the end of the step was braked in its last substep, and comes to lie in the next one's first.
+    impact.impulse = impact.mass * (impact.speed + max(leaves, 0.0));
     return impact;
 }
 

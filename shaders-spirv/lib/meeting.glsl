@@ -18,10 +18,14 @@ Pair pairNow(uint pair, uvec4 ids) {
     return p;
 }
 
+vec3 armOfA(uint pair, uint k, Pair p) { return turned(p.turn_a, memory[pair].anchor_a[k].xyz); }
+vec3 armOfB(uint pair, uint k, Pair p) { return turned(p.turn_b, memory[pair].anchor_b[k].xyz); }
+
+float partingAt(Pair p, vec3 arm_a, vec3 arm_b, vec3 normal) { return dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)); }
+
 // By differences: how far it is to the place of an endless plane says nothing.
 float separationNow(uint pair, uint k, Pair p, vec3 normal) {
-    vec3 anchor_a = turned(p.turn_a, memory[pair].anchor_a[k].xyz), anchor_b = turned(p.turn_b, memory[pair].anchor_b[k].xyz);
-    vec3 left_a = anchor_a - memory[pair].arm_a[k].xyz, left_b = anchor_b - memory[pair].arm_b[k].xyz;
+    vec3 left_a = armOfA(pair, k, p) - memory[pair].arm_a[k].xyz, left_b = armOfB(pair, k, p) - memory[pair].arm_b[k].xyz;
     return memory[pair].arm_a[k].w + dot(normal, p.came + left_b - left_a);
 }
 

@@ -26,7 +26,8 @@ layout(push_constant) uniform Push {
     vec4 stiff;
     uint color;
     uint with_push;
-    uint pad[2];
+    uint first_substep;
+    uint pad;
 };
 
 struct Touching {

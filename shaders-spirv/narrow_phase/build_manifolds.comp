@@ -142,10 +142,13 @@ void touchFaces(bool by_edges, Ends ends) {
     spanPlane(facing.a_leads ? found.axis.xyz : -found.axis.xyz);
     if (by_edges) tiltPlane(normalOf(facing.a_leads, facing.reference_face), facing.a_leads ? ends.of_a[0] : ends.of_b[0]);
     else plane.height.z = found.shift.w;
+    closePlane();
     gatherCandidates();
     picked = chosen();
     touch_count = uint(dot(vec4(notEqual(picked, uvec4(NO_INDEX))), vec4(1.0)));
 }
+
+float closingAt(vec3 p) { return dot(closingAlong(pair, found.axis.xyz, found.shift.xyz), vec4(p, 1.0)); }
 
 // Hulls that are apart further than the margin at the ends of these edges do not touch.
 Touch touchEdges(Ends ends) {
@@ -154,7 +157,7 @@ Touch touchEdges(Ends ends) {
     float denominator = max(dd * ee - de * de, 1e-37);
     float s = clamp((de * ew - ee * dw) / denominator, 0.0, 1.0), t = clamp((dd * ew - de * dw) / denominator, 0.0, 1.0);
     Touch touch = Touch(p + s * d, q + t * e, 1u << 27 | (found.info.x & 0xffffu));
-    bool near = is_swept || found.axis.w <= 0.0 || distance(touch.on_a, touch.on_b) <= pair.margin;
+    bool near = is_swept || found.axis.w <= 0.0 || distance(touch.on_a, touch.on_b) <= pair.margin + max(closingAt(touch.on_a), 0.0);
     touch_count = near ? 1u : 0u;
     return touch;
 }

@@ -87,9 +87,9 @@ AxisRecord touching(HullPair pair, vec3 between) {
 AxisRecord separated(HullPair pair, vec3 axis) {
     vec2 heights = heightsAlong(pair, axis);
     float gap = heights.y - heights.x;
-    if (gap + min(dot(axis, pair.motion), 0.0) > pair.margin) return AxisRecord(vec4(vec3(0.0), gap), vec4(0.0), uvec4(AXIS_APART));
+    if (gap + min(dot(axis, pair.motion), 0.0) > pair.margin + pair.reach) return AxisRecord(vec4(vec3(0.0), gap), vec4(0.0), uvec4(AXIS_APART));
     bool is_fast = dot(pair.motion, pair.motion) > pair.margin * pair.margin;
-    if (gap > pair.margin || (is_fast && !areFresh(pair))) return unknown();
+    if (gap > pair.margin + pair.reach || (is_fast && !areFresh(pair))) return unknown();
     AxisRecord found = touching(pair, axis);
     return found.axis.w >= -kDeepestShare * pair.smaller - pair.rounding ? found : unknown();
 }

@@ -13,6 +13,7 @@ GPU_NAMESPACE_BEGIN
 #define BODY_ASLEEP 1 /* it was not solved in the last step */
 #define BODY_ABSENT 2 /* nothing is in this slot */
 #define BODY_HANGS 4  /* something that does not move held it back in the last step */
+#define BODY_ROUND 8  /* a ball, however few corners its hull has */
 
 struct BodyState {
     ivec4 sector;  // w: BODY_* flags

@@ -71,9 +71,10 @@ struct BlowRecord {
 // A contact of bodies that turn on the way to each other: where and when they meet is found step by step, each time with the bodies
 // standing as they will by then.
 struct TurningBlow {
-    uvec4 ids;  // pair, the two bodies; w: 1 once it is known that they do not meet
-    vec4 arm_a; // of where they meet, own axes; w: s since the step began, when they meet
-    vec4 arm_b;
+    uvec4 ids; // pair, the two bodies; w: 1 once it is known that they do not meet
+    // s since the step began: when they meet as far as is known, and the latest time at which they are known to be apart; z: how far
+    // then, m, 0: at none
+    vec4 time;
 };
 #define MOST_BREAKING 256 /* bodies in a step, as many as there are tiles */
 // The solver brakes bodies that would meet in the substep after the last: a blow is what happens by then.
@@ -156,7 +157,7 @@ GPU_NAMESPACE_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gpu::BreakingRecord) == 128 && sizeof(gpu::BreakableBody) == 96 && sizeof(gpu::BrokenBody) == 80 &&
-              sizeof(gpu::BlowRecord) == 80 && sizeof(gpu::TurningBlow) == 48);
+              sizeof(gpu::BlowRecord) == 80 && sizeof(gpu::TurningBlow) == 32);
 static_assert(sizeof(gpu::CrackLedger) == 32 && sizeof(gpu::BreakEvent) == 160 && sizeof(gpu::SizeShare) == 16 &&
               sizeof(gpu::Birth) == 48);
 #endif

@@ -67,6 +67,7 @@ GPU_NAMESPACE_BEGIN
 #define PUSH_FIRST 1
 #define PUSH_AGAIN 2
 
+#define HIT_LAST -1 /* what carries nothing, having been hit in the last substep: it may still be on its way in */
 #define LOAD_CARRIED 0.75
 #define LOAD_FOLLOWED 0.2 /* of the difference, a step */
 
@@ -116,7 +117,7 @@ struct ContactMemory {
     vec4 anchor_a[MANIFOLD_POINTS]; // own axes of A; w: impulse
     vec4 anchor_b[MANIFOLD_POINTS]; // own axes of B; w: feature, as bits
     vec4 arm_a[MANIFOLD_POINTS];    // world axes, when the points were found; w: separation then
-    vec4 arm_b[MANIFOLD_POINTS];    // w: what the point has carried of late, an impulse a substep
+    vec4 arm_b[MANIFOLD_POINTS];    // w: what the point has carried of late, an impulse a substep; HIT_LAST after a blow
 };
 
 struct SolverPush {
@@ -125,7 +126,8 @@ struct SolverPush {
     vec4 stiff;       // the same where one does not move; w: least speed that bounces, m/s
     uint color;       // the color, or the first of the rest
     uint with_push;   // 0, or, while overlap is pushed out, PUSH_*
-    uint pad[2];
+    uint first_substep; // of its step: 1
+    uint pad;
 };
 
 GPU_NAMESPACE_END

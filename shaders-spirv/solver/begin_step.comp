@@ -1,5 +1,9 @@
 // A step begins: what the solver wants of each body, slowed by the air where there is any, and whether any is fast for its size
 // (lib/held_way.glsl).
+//
+// Speeds lag places by half a substep (lib/approach.glsl), those that bodies start with too, from the first step on: so what is
+// dropped falls for as long, and has turned as far when it lands, however long a step is. Where there are contacts push_bodies takes
+// that back: what rests has no speed to lag.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -7,6 +11,7 @@
 #include "lib/held_way.glsl"
 #include "lib/effect.glsl"
 #include "lib/air_drag.glsl"
+#include "shared/solver.h"
 
 FLAT_KERNEL;
 CCD_EFFECT;
@@ -17,7 +22,11 @@ READS(2, BodyShape, shapes);
 WRITES(3, SolverBody, solver_bodies);
 WRITES(4, vec4, spins); // that the momentum was last brought up to
 WRITES(5, uint, shares); // of its way that it may go, and that is left by what does not move
-layout(push_constant) uniform Push { vec4 gravity; }; // w: length of the step
+READS(6, uint, steps);
+layout(push_constant) uniform Push {
+    vec4 gravity; // w: length of the step
+    float lag;    // of speeds behind places, s
+};
 
 void main() {
     uint b = flatIndex();
@@ -25,6 +34,7 @@ void main() {
     BodyState state = bodies[b];
     mat3 inverse = worldInertia(ownInverseInertia(shapes[b]), state.turn);
     vec3 velocity = state.velocity.xyz, spin = state.spin.xyz;
+    if (steps[STEPS_MADE] == 0u && state.offset.w != 0.0) velocity -= lag * gravity.xyz;
     if (kDrag != 0u) {
         velocity = velocityInAir(velocity, state.offset.w, shapes[b], uintBitsToFloat(kDrag), gravity.w);
         spin = spinInAir(spin, shapes[b], uintBitsToFloat(kDrag), gravity.w);

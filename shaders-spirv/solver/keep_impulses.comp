@@ -20,8 +20,8 @@ void main() {
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         vec4 pulse = solver_contacts[c].points[k].pulse;
         bool blow = pulse.w != 0.0;
-        float carried = min(memory[ids.w].arm_b[k].w, pulse.x);
+        float carried = min(max(memory[ids.w].arm_b[k].w, 0.0), pulse.x);
         memory[ids.w].anchor_a[k].w = blow ? 0.0 : pulse.x;
-        memory[ids.w].arm_b[k].w = blow ? 0.0 : mix(carried, pulse.x, float(LOAD_FOLLOWED));
+        memory[ids.w].arm_b[k].w = blow ? float(HIT_LAST) : mix(carried, pulse.x, float(LOAD_FOLLOWED));
     }
 }

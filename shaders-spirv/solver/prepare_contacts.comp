@@ -102,7 +102,7 @@ void main() {
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
     if (kFriction != 0u) solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
     vec4 loads = vec4(0.0);
-    for (uint k = 0u; k < points; k++) loads = withComponent(loads, k, float(LOAD_CARRIED) * memory[pair].arm_b[k].w);
+    for (uint k = 0u; k < points; k++) loads = withComponent(loads, k, float(LOAD_CARRIED) * max(memory[pair].arm_b[k].w, 0.0));
     solver_contacts[c].loads = loads;
     vec3 rub_mass = vec3(0.0);
     if (kFriction != 0u) rub_mass = rubMass(p, center_a + p.slid_a, center_b + p.slid_b, tangent.xyz, cross(normal.xyz, tangent.xyz));

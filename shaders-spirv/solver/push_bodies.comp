@@ -1,5 +1,5 @@
 // A substep begins: gravity, and the impulses of the substep before once more (warm starting), each body's in the order of its
-// contacts.
+// contacts. In the world's first substep what has contacts is given back the half of gravity that begin_step took from its speed.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -14,6 +14,7 @@ READS(1, SolverContact, solver_contacts);
 READS(2, uint, adjacency_start);
 READS(3, uint, adjacency); // a contact << 1, | 1 where the body is its B
 UPDATES(4, SolverBody, solver_bodies);
+READS(5, uint, steps);
 layout(push_constant) uniform Push { SolverPush push_; };
 #include "lib/blow.glsl"
 
@@ -50,6 +51,8 @@ void main() {
         impulse += is_b ? one : -one;
         twist += is_b ? turning : -turning;
     }
+    bool lags = steps[STEPS_MADE] == 0u && push_.first_substep != 0u && first < last;
+    if (lags) m.velocity += 0.5 * push_.gravity.w * push_.gravity.xyz;
     m.velocity += push_.gravity.w * push_.gravity.xyz;
     push(m, impulse, twist);
     solver_bodies[b].velocity.xyz = m.velocity;

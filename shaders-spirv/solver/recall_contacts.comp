@@ -29,6 +29,7 @@ layout(push_constant) uniform Push {
     uint recycling;
 };
 #include "lib/body_way.glsl"
+#include "lib/rim_speed.glsl"
 
 const float kLeastCosine = 0.99240388; // squared, of half the angle: 10 degrees
 const float kFurthest = 0.05;          // m
@@ -76,7 +77,8 @@ float movesBy(uint body) { return bodies[body].offset.w == 0.0 ? 0.0 : 1.0; }
 bool staysApart(uint old, uint a, uint b) {
     vec3 falling = gravity.w * gravity.xyz * (movesBy(b) - movesBy(a));
     float way = gravity.w * length(bodies[b].velocity.xyz - bodies[a].velocity.xyz + falling);
-    return old_memory[old].place.w * kLessRounding > movedSince(old, a, b) + way + speculative;
+    float turning = gravity.w * (rimSpeed(a) + rimSpeed(b));
+    return old_memory[old].place.w * kLessRounding > movedSince(old, a, b) + way + turning + speculative;
 }
 
 bool isStill(uint body) { return bodies[body].offset.w == 0.0 || (bodies[body].sector.w & BODY_ASLEEP) != 0; }

@@ -96,7 +96,7 @@ Outcome judge(const Line& line) {
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(
             kernel("find_blows"), pairs, find,
-            {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, hardest, turning});
+            {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, hardest, turning, shapes});
         commands.dispatch(kernel("choose_blows"), pairs, engine::NoPush{}, {counts.words, memory, blows, hardest, chosen});
         commands.dispatch(kernel("hold_blows"), pairs, engine::NoPush{},
                           {counts.words, memory, states, blows, chosen, touches, shares});

@@ -41,8 +41,8 @@ struct Push {
     }
 };
 
-// On body B; on A it is the opposite at the same point, wherever the two have moved to. What a point was hit with counts no more, and
-// friction no more where any point was hit.
+// On body B; on A it is the opposite at the same point, wherever the two have moved to. What a point was hit with counts no
+// more, and friction no more where any point was hit.
 Push pushOf(const gpu::SolverContact& c, bool on_b, const Vector& moved) {
     Push push;
     const bool follows = c.rub_mass.w == static_cast<float>(on_b ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW);
@@ -94,20 +94,22 @@ Heap pressedHeap(uint32_t body_count, uint32_t contact_count, uint32_t seed) {
     return heap;
 }
 
-std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& gravity, uint32_t failed = 0) {
+std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& gravity, uint32_t failed = 0, uint32_t made = 1) {
     Counts counts;
     counts[STATUS_FAILED] = failed;
     gpu::SolverPush push{};
     push.gravity = wordsOf(gravity, kSubstep);
+    push.first_substep = 1;
     const auto bodies_in_all = static_cast<uint32_t>(heap.bodies.size());
     counts[COUNT_BODIES] = bodies_in_all;
     std::vector<gpu::SolverBody> solver_bodies = solverBodiesOf(heap.bodies);
     for (uint32_t b = 0; b < bodies_in_all; ++b)
         solver_bodies[b].moved = wordsOf(heap.moved[b], double{solver_bodies[b].moved.w});
     const engine::Buffer contacts = bufferOf(heap.contacts), start = bufferOf(heap.start), adjacency = bufferOf(heap.adjacency),
-                         bodies = bufferOf(solver_bodies);
+                         bodies = bufferOf(solver_bodies), steps = bufferOf(std::vector<uint32_t>{made, 0, 0, 0});
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("push_bodies"), bodies_in_all, push, {counts.words, contacts, start, adjacency, bodies});
+        commands.dispatch(kernel("push_bodies"), bodies_in_all, push,
+                          {counts.words, contacts, start, adjacency, bodies, steps});
     });
     return valuesOf<gpu::SolverBody>(bodies, heap.bodies.size());
 }
@@ -133,6 +135,24 @@ TEST(SmallPushBodies, GiveThemGravityAndTheImpulsesOfTheirContactsOnceMore) {
             EXPECT_LE((xyz(pushed[b].spin) - spin).norm(), 1e-5 * (1 + spin.norm())) << b;
         }
     }
+}
+
+// Speeds lag by half a substep from the first step on, but for those of what touches something.
+TEST(SmallPushBodies, InTheFirstStepGiveWhatTouchesGravityForAHalfMore) {
+    Heap heap = pressedHeap(64, 40, 5);
+    for (gpu::SolverContact& contact : heap.contacts)
+        contact = {contact.ids};
+    const Vector gravity(0, -9.81, 3);
+    const auto first = pushedOnDevice(heap, gravity, 0, 0), later = pushedOnDevice(heap, gravity);
+    uint32_t touching = 0;
+    for (uint32_t b = 0; b < 64; ++b) {
+        const bool touches = heap.start[b] < heap.start[b + 1] && heap.bodies[b].moves();
+        const Vector more = xyz(first[b].velocity) - xyz(later[b].velocity);
+        EXPECT_LE((more - (touches ? 0.5 : 0) * kSubstep * gravity).norm(), 1e-6) << b;
+        touching += touches ? 1 : 0;
+    }
+    EXPECT_GT(touching, 10u);
+    EXPECT_LT(touching, 60u);
 }
 
 // What one body gets the other one loses, about the origin, wherever the two have moved to and whosever arms follow.
@@ -190,8 +210,11 @@ TEST(SmallKeepImpulses, NoteWhatContactsWerePressedWithButForBlows) {
         for (const gpu::SolverContact& contact : heap.contacts) {
             const gpu::ContactMemory& kept = memory.mappedAs<gpu::ContactMemory>()[contact.ids.w];
             EXPECT_EQ(xyz(kept.rub), isBlow(contact) ? Vector(0, 0, 0) : xyz(contact.rub));
-            for (uint32_t k = 0; k < contact.ids.z; ++k)
-                EXPECT_EQ(kept.anchor_a[k].w, contact.points[k].pulse.w != 0 ? 0 : contact.points[k].pulse.x);
+            for (uint32_t k = 0; k < contact.ids.z; ++k) {
+                const bool blow = contact.points[k].pulse.w != 0;
+                EXPECT_EQ(kept.anchor_a[k].w, blow ? 0 : contact.points[k].pulse.x);
+                EXPECT_EQ(kept.arm_b[k].w == HIT_LAST, blow);
+            }
         }
     }
 }

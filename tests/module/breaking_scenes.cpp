@@ -41,6 +41,21 @@ std::unique_ptr<brittle::World> worldOf(const SceneDescription& scene, const bri
     return std::move(*world);
 }
 
+void expectAlikeInStepsOfAnyLength(SceneDescription scene, double energy_share, double count_share) {
+    std::vector<gpu::BreakEvent> hits;
+    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
+        scene.step.dt = dt;
+        const auto world = worldOf(scene);
+        const auto events = stepUntilItBreaks(*world, 120);
+        ASSERT_EQ(events.size(), 1u) << dt;
+        hits.push_back(events[0]);
+    }
+    for (const gpu::BreakEvent& hit : hits) {
+        EXPECT_NEAR(hit.blow.z, hits[1].blow.z, energy_share * double{hits[1].blow.z});
+        EXPECT_NEAR(hit.made.x, hits[1].made.x, count_share * hits[1].made.x);
+    }
+}
+
 std::vector<gpu::BodyState> presentBodies(brittle::World& world) {
     const auto states = world.bodies();
     EXPECT_TRUE(states);

@@ -23,6 +23,9 @@ void step(brittle::World& world, uint32_t steps = 1);
 // Steps until something breaks, for so many steps at most, and returns what did.
 std::vector<gpu::BreakEvent> stepUntilItBreaks(brittle::World& world, uint32_t most);
 
+// The same with steps of three lengths: energies and counts of what breaks are alike but for these shares.
+void expectAlikeInStepsOfAnyLength(brittle::SceneDescription scene, double energy_share, double count_share);
+
 // That are there and move.
 std::vector<gpu::BodyState> presentBodies(brittle::World& world);
 double massOf(const std::vector<gpu::BodyState>& bodies);

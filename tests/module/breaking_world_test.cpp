@@ -137,93 +137,10 @@ TEST(BreakingWorld, FragmentsMoveAsTheirBodyDidWhereTheyAre) {
     }
 }
 
-// The same with steps of three lengths: energies and counts of what breaks are alike but for these shares.
-void expectAlikeInStepsOfAnyLength(SceneDescription scene, double energy_share, double count_share) {
-    std::vector<gpu::BreakEvent> hits;
-    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
-        scene.step.dt = dt;
-        const auto world = worldOf(scene);
-        const auto events = stepUntilItBreaks(*world, 120);
-        ASSERT_EQ(events.size(), 1u) << dt;
-        hits.push_back(events[0]);
-    }
-    for (const gpu::BreakEvent& hit : hits) {
-        EXPECT_NEAR(hit.blow.z, hits[1].blow.z, energy_share * double{hits[1].blow.z});
-        EXPECT_NEAR(hit.made.x, hits[1].made.x, count_share * hits[1].made.x);
-    }
-}
-
 TEST(BreakingWorld, StepsDoNotDecideHowHardAFlyingBodyIsHit) { expectAlikeInStepsOfAnyLength(shot(8, "concrete"), 0.01, 0); }
 
 TEST(BreakingWorld, StepsHardlyDecideHowHardAFallIs) {
     expectAlikeInStepsOfAnyLength(sceneOf({ball({0, 2, 0}, "concrete")}), 0.05, 0.15);
-}
-
-// It turns by up to 19 degrees in a step, and by the time that they meet another of its corners may be the lowest.
-SceneDescription turningBar(const Double3& spin) {
-    BodyDescription bar;
-    bar.shape.size = {0.6, 0.06, 0.06};
-    bar.material = "stone";
-    bar.spin = spin;
-    return sceneOf({bar});
-}
-
-TEST(BreakingWorld, StepsDoNotDecideHowHardATurningBodyIsHit) {
-    for (const double spin : {-10.0, -2.0, 5.0}) {
-        SceneDescription scene = turningBar({0, spin, 0});
-        scene.effects = {"contacts", "impact_fracture", "events"};
-        scene.colliders.clear();
-        BodyDescription shot = ball({0.2, 0.01, 1.05}, "");
-        shot.shape.radius = 0.05;
-        shot.mass = 2;
-        shot.velocity = {0, 0, -20};
-        scene.bodies.push_back(shot);
-        expectAlikeInStepsOfAnyLength(scene, 0.01, 0.05);
-    }
-}
-
-// How a bar that turns about z as it comes down to y = 0 meets it: with its lowest edge, whose height above the center of mass
-// and place beside it follow from the angle; when is found by halving.
-TEST(BreakingWorld, ATurningBarMeetsTheGroundAsItsLowestEdgeDoes) {
-    constexpr double kLong = 0.6, kThick = 0.06, kHeight = 0.5, kSpeed = 5, kSpin = 7;
-    SceneDescription scene = turningBar({0, 0, kSpin});
-    scene.effects = {"contacts", "impact_fracture", "events"};
-    scene.bodies[0].place = {0, kHeight, 0};
-    scene.bodies[0].velocity = {0, -kSpeed, 0};
-    const auto lowestAt = [&](double time) -> std::array<double, 2> { // beside and above the center of mass
-        const double c = std::cos(kSpin * time), s = std::sin(kSpin * time);
-        std::array<double, 2> lowest = {0, 1};
-        for (const double x : {-kLong / 2, kLong / 2})
-            for (const double y : {-kThick / 2, kThick / 2})
-                if (s * x + c * y < lowest[1]) lowest = {c * x - s * y, s * x + c * y};
-        return lowest;
-    };
-    double early = 0, late = kHeight / kSpeed;
-    for (int k = 0; k < 60; ++k) {
-        const double time = (early + late) / 2;
-        (kHeight - kSpeed * time + lowestAt(time)[1] > 0 ? early : late) = time;
-    }
-    const double mass = brittle::findMaterial("stone")->density * kLong * kThick * kThick;
-    const double inertia = mass * (kLong * kLong + kThick * kThick) / 12, beside = lowestAt(late)[0];
-    const double effective = 1 / (1 / mass + beside * beside / inertia), speed = kSpeed - kSpin * beside;
-    ASSERT_GT(speed, 1);
-    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-        scene.step.dt = dt;
-        const auto world = worldOf(scene);
-        const auto events = stepUntilItBreaks(*world, 60);
-        ASSERT_EQ(events.size(), 1u);
-        EXPECT_NEAR(events[0].blow.x, effective, 1e-3 * effective);
-        EXPECT_NEAR(events[0].blow.y, speed, 1e-3 * speed);
-        EXPECT_NEAR(events[0].what.x, std::ceil(late / dt), 1);
-    }
-}
-
-TEST(BreakingWorld, StepsHardlyDecideHowHardATumblingFallIs) {
-    for (const double spin : {-3.0, 8.0}) {
-        SceneDescription scene = turningBar({0, 0.3 * spin, spin});
-        scene.bodies[0].place = {0, 1, 0};
-        expectAlikeInStepsOfAnyLength(scene, 0.05, 0.15);
-    }
 }
 
 TEST(BreakingWorld, IsTheSameBitForBitInEveryRunAndWithGroupsOfAnySize) {

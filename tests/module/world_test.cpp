@@ -50,14 +50,13 @@ std::vector<gpu::BodyState> bodiesOf(World& world) {
     return bodies ? *bodies : std::vector<gpu::BodyState>();
 }
 
-// Symplectic Euler in substeps: after n of them the way is g h^2 n (n + 1) / 2.
+// Speeds lag places by half a substep.
 TEST(World, ABodyFallsAsGravityHasIt) {
     auto world = worldOf({support::box({1, 1, 1}, {3, 100, -20})});
     run(*world, 60);
     const gpu::BodyState body = bodiesOf(*world).at(0);
-    const double h = 1.0 / 240, fallen = 9.81 * h * h * 240 * 241 / 2;
-    EXPECT_NEAR(placeOf(body)[1], 100 - fallen, 1e-4);
-    EXPECT_NEAR(body.velocity.y, -9.81, 1e-4);
+    EXPECT_NEAR(placeOf(body)[1], 100 - 9.81 / 2, 1e-4);
+    EXPECT_NEAR(body.velocity.y, -9.81 * (1 - 0.5 / 240), 1e-4);
     EXPECT_EQ(placeOf(body)[0], 3);
     EXPECT_EQ(placeOf(body)[2], -20);
 }
@@ -248,13 +247,17 @@ TEST(World, AStackThatHasComeToRestSleepsUntilItIsHit) {
     for (size_t b = 0; b + 1 < asleep.size(); ++b)
         EXPECT_EQ(std::memcmp(&asleep[b].offset, &later[b].offset, 2 * sizeof(gpu::vec4)), 0);
     float before = 0;
-    for (uint32_t step = 0; step < 60 && countsOf(*world).awake < 6; ++step) {
+    uint32_t steps = 140;
+    for (; steps < 200 && countsOf(*world).awake < 6; ++steps) {
         before = bodiesOf(*world)[6].velocity.y;
         run(*world, 1);
     }
     EXPECT_EQ(countsOf(*world).awake, 6u);
-    EXPECT_NEAR(before, bodiesOf(*world)[6].velocity.y, 14) << "they wake in the step that it hits them in";
     EXPECT_NEAR(before, -std::sqrt(2 * 9.81 * 34.5), 1);
+    auto restless = worldOf(sleepers(), {});
+    run(*restless, steps);
+    EXPECT_NEAR(bodiesOf(*world)[6].velocity.y, bodiesOf(*restless)[6].velocity.y, 0.1)
+        << "they wake in the step that it hits them in";
 }
 
 TEST(World, DispatchesNothingWhileAllSleepAndGoesOnCounting) {
@@ -382,10 +385,8 @@ TEST(World, WithoutContactsBodiesFallThroughEachOther) {
     run(**world, 60);
     const auto bodies = (*world)->bodies();
     ASSERT_TRUE(bodies);
-    const int substeps = 60 * 4;
-    const double h = 1.0 / 240, fallen = 9.81 * h * h * substeps * (substeps + 1) / 2;
     for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR((*bodies)[k].offset.y, 0.9 * k - fallen, 1e-4);
+        EXPECT_NEAR((*bodies)[k].offset.y, 0.9 * k - 9.81 / 2, 1e-4);
     EXPECT_EQ(countsOf(**world).pairs, 0u);
 }
 

@@ -104,6 +104,15 @@ RigidStack::RigidStack(const std::vector<StackedBox>& boxes, const StackSettings
     first_ = bodies_;
     findContacts(boxes);
     colorContacts();
+    letSpeedsLag();
+}
+
+// Of what touches nothing, by half a substep.
+void RigidStack::letSpeedsLag() {
+    for (size_t b = 0; b < bodies_.size(); ++b) {
+        const bool touches = std::ranges::any_of(contacts_, [b](const SoftContact& c) { return c.a == b || c.b == b; });
+        if (bodies_[b].moves() && !touches) bodies_[b].velocity = bodies_[b].velocity - (0.5 * solve_.seconds) * solve_.gravity;
+    }
 }
 
 void RigidStack::findContacts(const std::vector<StackedBox>& boxes) {

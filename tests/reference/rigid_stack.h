@@ -43,6 +43,7 @@ private:
     bool share(const SoftContact& c, const SoftContact& d) const; // a body that moves
     size_t lowestColor(const SoftContact& mine) const;
     void colorContacts();
+    void letSpeedsLag();
     void solveAll(bool with_push);
     void substep();
 

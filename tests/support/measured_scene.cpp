@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace support {
@@ -21,6 +22,20 @@ bool hasCells(const brittle::SceneDescription& scene) {
 Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
 
 double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
+
+// By so many radians about its own direction (Rodrigues).
+Double3 turnedBySpin(const Double3& v, const Double3& angles) {
+    const double angle = sizeOf(angles);
+    if (angle == 0) return v;
+    const Double3 axis = (1 / angle) * angles;
+    return std::cos(angle) * v + std::sin(angle) * brittle::cross(axis, v) +
+           ((1 - std::cos(angle)) * brittle::dot(axis, v)) * axis;
+}
+
+// How far the arcs of a hull's points lead beyond their chords, at most.
+double bulgeOf(const gpu::HullRecord& hull, double angle) {
+    return (sizeOf(xyz(hull.center)) + hull.center.w) * (1 - std::cos(std::min(angle, 2 * std::numbers::pi) / 2));
+}
 
 } // namespace
 
@@ -130,17 +145,21 @@ std::vector<reference::SolidBox> MeasuredScene::sweptBoxes(double more) const {
     for (size_t p = 0; p < contents_.pieces.size(); ++p) {
         const uint32_t body = contents_.pieces[p].ids.y;
         const gpu::BodyState& state = last_[body];
+        const Double3 place = poseOf(state).place;
         reference::Bounds bounds;
         for (const reference::Point& v : pieceInWorld(contents_, p, poseOf(state)).vertices) {
             bounds.grow(v);
-            if (moves(body)) bounds.grow(v + scene_.step.dt * xyz(state.velocity));
+            const Double3 arm = turnedBySpin(v - place, scene_.step.dt * xyz(state.spin));
+            if (moves(body)) bounds.grow(place + arm + scene_.step.dt * xyz(state.velocity));
         }
+        const double angle = moves(body) ? scene_.step.dt * sizeOf(xyz(state.spin)) : 0;
+        const double around = margin + bulgeOf(contents_.hulls.records[contents_.pieces[p].ids.x], angle);
         reference::SolidBox box = {.body = body, .fixed = !moves(body)};
         const bool is_plane = (contents_.pieces[p].ids.z & PIECE_PLANE) != 0; // endless, but straight up
         const Double3 up = brittle::turnedBy(poseOf(state).turn, {0, 1, 0});
         for (size_t axis = 0; axis < 3; ++axis) {
             const double rounding = 1e-6 * std::max(std::fabs(bounds.lower[axis]), std::fabs(bounds.upper[axis]));
-            const double beyond = (is_plane && std::fabs(up[axis]) < 1 ? 2e6 : 0) + margin + (more > 0 ? rounding : 0);
+            const double beyond = (is_plane && std::fabs(up[axis]) < 1 ? 2e6 : 0) + around + (more > 0 ? rounding : 0);
             box.low[axis] = bounds.lower[axis] - beyond;
             box.high[axis] = bounds.upper[axis] + beyond;
         }

@@ -64,7 +64,7 @@ public:
         const MeetingPush meeting = meetingPush(s);
         s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), meeting,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
-                      s.b.steps, p_.blows, p_.hardest, p_.turning});
+                      s.b.steps, p_.blows, p_.hardest, p_.turning, s.b.shapes});
         if (auto recorded = recordTurning(s, l_, p_); !recorded) return recorded;
         if (struck) strikes_->recordRaising(s, p_);
         const uint32_t publish[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};

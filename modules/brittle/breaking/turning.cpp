@@ -3,7 +3,7 @@
 namespace brittle {
 namespace {
 
-constexpr uint32_t kAttempts = 3; // each squares what is left of the error
+constexpr uint32_t kAttempts = 4; // each squares what is left of the error
 constexpr Length kTurning = {0, COUNT_TURNING};
 
 void recordPoses(const Step& s, const PassingBuffers& p, bool is_first) {
@@ -36,9 +36,13 @@ engine::Result<void> recordTurning(const Step& s, const LastingBuffers& l, const
         recordPoses(s, p, k == 0);
         if (auto recorded = recordPosedPoints(s, p); !recorded) return recorded;
     }
-    s.record.run("judge_turning", kTurning, meetingPush(s),
+    const struct {
+        MeetingPush meeting;
+        float margin;
+    } push = {meetingPush(s), static_cast<float>(s.settings.margin)};
+    s.record.run("judge_turning", kTurning, push,
                  {s.record.counts(), p.turning, s.b.step.manifolds, s.b.bodies, s.b.shapes, s.b.step.solver_bodies, l.breakable,
-                  l.cards, s.b.steps, p.blows, p.hardest});
+                  l.cards, s.b.steps, p.blows, p.hardest, s.now.contacts, s.b.step.touches});
     return {};
 }
 

@@ -44,6 +44,7 @@ BodyDefinition bodyOf(const BodyDescription& d, const std::string& name) {
     body.spin = d.spin;
     body.friction = d.surface.friction;
     body.restitution = d.surface.restitution;
+    body.is_round = d.shape.kind == ShapeKind::Ball;
     return body;
 }
 
@@ -326,6 +327,7 @@ Result<void> ContentsMaker::addCollider(const ColliderDescription& d, const std:
     body.turn = d.turn;
     body.friction = d.surface.friction;
     body.restitution = d.surface.restitution;
+    body.is_round = d.shape.kind == ShapeKind::Ball;
     if (d.shape.kind == ShapeKind::Plane) return addPlane(d, std::move(body));
     if (d.shape.kind == ShapeKind::Mesh) return addSurface(d, std::move(body));
     const auto hull = hullOf(d.shape, folder_);

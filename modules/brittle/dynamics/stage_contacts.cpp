@@ -33,8 +33,9 @@ void recordRecall(const Step& s) {
 }
 
 engine::Result<void> recordFreshPoints(const Step& s) {
-    NarrowPhaseInput input = {s.b.hulls(), s.b.pieces, s.b.bodies, s.b.step.fresh_pairs,
-                              s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4), s.b.sizes.pairs};
+    NarrowPhaseInput input = {
+        s.b.hulls(),    s.b.pieces, s.b.bodies, s.b.step.fresh_pairs, s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4),
+        s.b.sizes.pairs};
     if (s.has(Effect::ImpactFracture)) input.siblings = {s.b.births, s.b.steps};
     return recordPoints(s, input, toFloat(s.settings.gravity));
 }
@@ -62,8 +63,11 @@ void recordPieceBoxes(const Step& s) {
 void recordBoxes(const Step& s) {
     s.record.commands().beginLabel("boxes");
     s.record.runGroups("open_step", 1, engine::NoPush{}, {s.record.counts(), s.record.args(), s.b.steps});
-    s.record.run("begin_step", Length::counted(COUNT_BODIES), fallingOf(s),
-                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares});
+    const gpu::vec4 falling = fallingOf(s);
+    const float push[] = {falling.x, falling.y, falling.z, falling.w, 0.5f * solverPush(s).gravity.w};
+    s.record.run(
+        "begin_step", Length::counted(COUNT_BODIES), push,
+        {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares, s.b.steps});
     if (s.has(Effect::Contacts)) recordPieceBoxes(s);
     s.record.commands().endLabel();
 }

@@ -12,11 +12,12 @@ void recordImpacts(const Step& s, const std::optional<engine::BufferView>& break
         uint32_t breaks;
     } push = {static_cast<float>(s.settings.impact_speed), breakable ? 1u : 0u};
     s.record.commands().beginLabel("impacts");
-    s.record.run("find_impacts", Length::counted(COUNT_CONTACTS), push.least_speed,
-                 {s.record.counts(), b.contact_slots, b.solver_contacts, b.solver_bodies, b.hits, s.b.impacts_told});
+    s.record.run(
+        "find_impacts", Length::counted(COUNT_CONTACTS), push.least_speed,
+        {s.record.counts(), b.contact_slots, b.solver_contacts, b.solver_bodies, b.hits, s.b.impacts_told, s.now.contacts});
     s.record.runGroups("tell_impacts", 1, push,
                        {s.record.counts(), b.contact_slots, b.solver_contacts, b.solver_bodies, b.hits, s.b.impacts_told,
-                        s.b.impacts, s.b.bodies, breakable.value_or(s.b.bodies), s.b.steps});
+                        s.b.impacts, s.b.bodies, breakable.value_or(s.b.bodies), s.b.steps, s.now.contacts});
     s.record.commands().endLabel();
 }
 

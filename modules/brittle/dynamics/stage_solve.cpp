@@ -57,8 +57,9 @@ uint32_t passes(const Step& s) { return s.has(Effect::Contacts) ? s.settings.ite
 
 void recordSubstep(const Step& s, gpu::SolverPush push, uint32_t substep) {
     const StepBuffers& b = s.b.step;
+    push.first_substep = substep == 0 ? 1 : 0;
     s.record.run("push_bodies", kBodies, push,
-                 {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies});
+                 {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies, s.b.steps});
     for (uint32_t k = 0; k < passes(s); k++)
         recordPass(s, push, k == 0 ? Sweep::Push : Sweep::PushAgain, substep);
     s.record.run("move_bodies", kBodies, push, {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
@@ -160,13 +161,14 @@ void recordSolve(const Step& s) {
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push, k);
     if (s.bounces) recordPass(s, push, Sweep::Bounce);
-    if (contacts)
-        s.record.run("keep_impulses", kContacts, engine::NoPush{}, {s.record.counts(), b.solver_contacts, s.now.contacts});
     s.record.commands().endLabel();
 }
 
 void recordEnd(const Step& s) {
     s.record.commands().beginLabel("end");
+    if (s.has(Effect::Contacts))
+        s.record.run("keep_impulses", kContacts, engine::NoPush{},
+                     {s.record.counts(), s.b.step.solver_contacts, s.now.contacts});
     recordHolding(s);
     s.record.run(
         "end_step", kBodies, fallingOf(s),

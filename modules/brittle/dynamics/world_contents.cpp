@@ -92,6 +92,7 @@ gpu::BodyState stateOf(const BodyDefinition& body, const Principal& principal) {
     gpu::BodyState state{};
     const bool moves = body.mass > 0;
     setPlace(state, body.place, moves ? 1 / body.mass : 0);
+    if (body.is_round) state.sector.w |= BODY_ROUND;
     const Eigen::Quaterniond given = Eigen::Quaterniond(body.turn[3], body.turn[0], body.turn[1], body.turn[2]).normalized();
     const Eigen::Quaterniond turn = (given * principal.axes).normalized();
     state.turn = packed({turn.x(), turn.y(), turn.z()}, turn.w());

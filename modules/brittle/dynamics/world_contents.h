@@ -32,6 +32,7 @@ struct BodyDefinition {
     std::string material; // likewise, of what it is made; empty for what says nothing of that
     uint64_t id = 0; // a world is the same, bit for bit, in whatever order its bodies are added, if these are all different
     std::vector<PieceShape> pieces;
+    bool is_round = false;     // a ball, of which its pieces are a rough likeness: blows go to its center
     Double3 place = {0, 0, 0}; // of the center of mass
     Turn turn = {0, 0, 0, 1};
     Double3 velocity = {0, 0, 0};
