@@ -22,6 +22,7 @@ struct FollowedKernel {
 
     uint64_t version = 0;    // counts changes of these
     bool waits = false;      // to be compiled
+    uint32_t compiling = 0;  // threads that do: an older version may still be on its way
     bool is_running = false; // somebody who is attached runs it
     CheckedKernel latest;
     std::vector<LibraryReplacement> ready; // of `latest`, where that is another than `taken`

@@ -37,8 +37,8 @@ FollowingReloader::~FollowingReloader() {
 }
 
 void FollowingReloader::begin() {
-    const uint32_t spare = std::max(2u, std::thread::hardware_concurrency()) - 1;
-    for (uint32_t k = 0; k < (options_.threads == 0 ? spare : options_.threads); ++k)
+    const uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
+    for (uint32_t k = 0; k < (options_.threads == 0 ? cores : options_.threads); ++k)
         threads_.emplace_back([this] { guard([this] { compileAll(); }); });
     threads_.emplace_back([this] { guard([this] { followChanges(); }); });
 }
@@ -46,6 +46,11 @@ void FollowingReloader::begin() {
 bool FollowingReloader::isIdle() const {
     const std::lock_guard lock(mutex_);
     return !edits_.hasUndecided() && ready_.empty() && events_.empty() && !gathers_;
+}
+
+bool FollowingReloader::isAwaited() const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(kernels_, [](const FollowedKernel& k) { return k.is_running && (k.waits || k.compiling > 0); });
 }
 
 KernelState FollowingReloader::stateOf(std::string_view kernel) const {
@@ -118,7 +123,6 @@ void FollowingReloader::take(const FolderChanges& changes, SaveTime saved) {
 }
 
 void FollowingReloader::compileAll() {
-    AheadCompiler ahead(device_);
     for (;;) {
         std::optional<KernelIndex> next;
         {
@@ -126,26 +130,35 @@ void FollowingReloader::compileAll() {
             work_.wait(lock, [&] { return stops_ || (next = nextToCompile()); });
             if (stops_) return;
             kernels_[*next].waits = false;
+            ++kernels_[*next].compiling;
         }
-        compileOne(*next, ahead);
+        compileOne(*next);
+        const std::lock_guard lock(mutex_);
+        --kernels_[*next].compiling;
+        work_.notify_all();
+        outcome_.notify_all();
     }
 }
 
-// What runs before what does not, and what somebody has saved before what was there.
+// What runs before what does not, which takes no core from it either, and what somebody has saved before what was there; of
+// these first what took longest when it was compiled last, so that nothing long is begun in the end.
 std::optional<KernelIndex> FollowingReloader::nextToCompile() const {
+    const bool somebody_waits =
+        std::ranges::any_of(kernels_, [](const FollowedKernel& k) { return k.is_running && k.compiling > 0; });
     std::optional<KernelIndex> best;
     int best_rank = -1;
     for (KernelIndex k = 0; k < kernels_.size(); ++k) {
         const FollowedKernel& kernel = kernels_[k];
         const int rank = (kernel.is_running ? 2 : 0) + (kernel.wasChecked() ? 1 : 0);
-        if (!kernel.waits || rank <= best_rank) continue;
+        if (!kernel.waits || rank < best_rank || (somebody_waits && !kernel.is_running)) continue;
+        if (rank == best_rank && kernel.latest.ms <= kernels_[*best].latest.ms) continue;
         best = k;
         best_rank = rank;
     }
     return best;
 }
 
-void FollowingReloader::compileOne(KernelIndex index, AheadCompiler& ahead) {
+void FollowingReloader::compileOne(KernelIndex index) {
     FollowedKernel kernel; // as it was asked for
     {
         const std::lock_guard lock(mutex_);
@@ -157,7 +170,7 @@ void FollowingReloader::compileOne(KernelIndex index, AheadCompiler& ahead) {
     try {
         checked = checkKernel(kernel.source, kernel.host, options_.include_folders);
         is_known = watchFilesOf(checked);
-        if (is_known && checked.good() && !kernel.isTaken(checked.words)) ready = prepare(kernel, checked, ahead);
+        if (is_known && checked.good() && !kernel.isTaken(checked.words)) ready = prepare(kernel, checked);
     } catch (const std::exception& thrown) { // nothing that is thrown here is worth the process
         checked.words = nullptr;
         checked.diagnostics = {aboutWhole(kernel.source, thrown.what())};
@@ -204,26 +217,33 @@ bool FollowingReloader::watchFilesOf(const CheckedKernel& checked) {
     return all_known;
 }
 
-std::vector<LibraryReplacement> FollowingReloader::prepare(const FollowedKernel& kernel, CheckedKernel& checked,
-                                                           AheadCompiler& ahead) {
+// Pipelines are made while the driver compiles ahead.
+std::vector<LibraryReplacement> FollowingReloader::prepare(const FollowedKernel& kernel, CheckedKernel& checked) {
+    const AheadCompilation compiling(device_, kernel.source.name, checked.words, specializationsOf(kernel.source));
+    const std::shared_lock lock(libraries_mutex_);
     std::vector<LibraryReplacement> ready;
-    std::vector<std::vector<SpecConstant>> specializations;
-    {
-        const std::shared_lock lock(libraries_mutex_);
-        for (KernelLibrary* library : libraries_) {
-            auto replacement = library->prepare(kernel.source.name, checked.words);
-            if (!replacement) {
-                checked.words = nullptr;
-                checked.diagnostics.push_back(aboutWhole(kernel.source, replacement.error().message));
-                return {};
-            }
-            ready.push_back({library, std::move(*replacement)});
-            for (auto& constants : library->specializationsOf(kernel.source.name))
-                specializations.push_back(std::move(constants));
+    for (KernelLibrary* library : libraries_) {
+        auto replacement = library->prepare(kernel.source.name, checked.words);
+        if (!replacement) {
+            checked.words = nullptr;
+            checked.diagnostics.push_back(aboutWhole(kernel.source, replacement.error().message));
+            return {};
         }
+        ready.push_back({library, std::move(*replacement)});
     }
-    ahead.compile(kernel.source.name, checked.words, specializations);
     return ready;
+}
+
+// Each once, whoever runs them.
+std::vector<Specialization> FollowingReloader::specializationsOf(const KernelSource& source) {
+    const auto isSame = [](const SpecConstant& a, const SpecConstant& b) { return a.id == b.id && a.value == b.value; };
+    const std::shared_lock lock(libraries_mutex_);
+    std::vector<Specialization> all;
+    for (const KernelLibrary* library : libraries_)
+        for (Specialization& constants : library->specializationsOf(source.name))
+            if (std::ranges::none_of(all, [&](const auto& known) { return std::ranges::equal(known, constants, isSame); }))
+                all.push_back(std::move(constants));
+    return all;
 }
 
 bool somethingRuns(std::span<const ReloadEvent> events) {

@@ -36,7 +36,9 @@ public:
     void detach(KernelLibrary& library) override;
     std::vector<ReloadEvent> swap() override;
 
+    bool waitUntil(std::chrono::steady_clock::time_point time) override;
     bool isIdle() const override;
+    bool isAwaited() const override;
     KernelState stateOf(std::string_view kernel) const override;
 
 private:
@@ -47,10 +49,11 @@ private:
     void take(const FolderChanges& changes, SaveTime saved);
     void compileAll();
     std::optional<KernelIndex> nextToCompile() const;
-    void compileOne(KernelIndex index, AheadCompiler& ahead);
+    void compileOne(KernelIndex index);
     void rememberFiles(FollowedKernel& kernel, const CheckedKernel& checked) const;
     bool watchFilesOf(const CheckedKernel& checked);
-    std::vector<LibraryReplacement> prepare(const FollowedKernel& kernel, CheckedKernel& checked, AheadCompiler& ahead);
+    std::vector<LibraryReplacement> prepare(const FollowedKernel& kernel, CheckedKernel& checked);
+    std::vector<Specialization> specializationsOf(const KernelSource& source);
     void finish(const Edit& edit);
     void refuse(const Edit& edit);
     ReadyEdit gather(const Edit& edit);
@@ -64,7 +67,7 @@ private:
     std::unique_ptr<FolderWatch> watch_;
 
     mutable std::mutex mutex_;
-    std::condition_variable work_;
+    std::condition_variable work_, outcome_;
     std::vector<FollowedKernel> kernels_;
     EditBook edits_;
     std::vector<ReadyEdit> ready_;

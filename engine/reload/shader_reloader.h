@@ -33,7 +33,7 @@ struct ReloadOptions {
     std::filesystem::path folder;                              // where the rows of `modules` have their sources
     std::vector<std::filesystem::path> include_folders;        // empty: `folder`
     std::span<const shaders::Module> modules = shaders::all(); // the table that the program was built with
-    uint32_t threads = 0;                                      // that compile; 0: one less than there are cores, at least one
+    uint32_t threads = 0;                                      // that compile side by side; 0: one a core
 };
 
 enum class KernelState {
@@ -57,8 +57,13 @@ public:
     // and tells what has happened since it was called last.
     virtual std::vector<ReloadEvent> swap() = 0;
 
+    // For those who would sleep until the next frame: ends sooner where swap() has something to do or to tell. Whether it has.
+    virtual bool waitUntil(std::chrono::steady_clock::time_point time) = 0;
+
     // Nothing that it knows of is still to be compiled or to be taken over.
     virtual bool isIdle() const = 0;
+    // Something that runs is on its way. Who steps on the cores that compile it may leave it more of them meanwhile.
+    virtual bool isAwaited() const = 0;
     virtual KernelState stateOf(std::string_view kernel) const = 0;
 };
 

@@ -130,6 +130,11 @@ Result<void> FollowingReloader::adoptInto(KernelLibrary& library, ReadyEdit& rea
     return library.adopt(own);
 }
 
+bool FollowingReloader::waitUntil(Clock::time_point time) {
+    std::unique_lock lock(mutex_);
+    return outcome_.wait_until(lock, time, [&] { return !ready_.empty() || !events_.empty(); });
+}
+
 std::vector<ReloadEvent> FollowingReloader::swap() {
     std::vector<ReadyEdit> ready;
     std::vector<ReloadEvent> events;

@@ -194,6 +194,22 @@ TEST_F(Reload, EndsWithTheLastOfAHundredSavesInASecond) {
     EXPECT_EQ(reloader()->stateOf("increment"), KernelState::Ready);
 }
 
+TEST_F(Reload, WakesWhoeverWaitsForAnOutcome) {
+    reloader().settle();
+    const auto wakes = [&](std::chrono::milliseconds longest) {
+        return reloader()->waitUntil(std::chrono::steady_clock::now() + longest);
+    };
+    EXPECT_FALSE(wakes(std::chrono::milliseconds(1)));
+    EXPECT_FALSE(reloader()->isAwaited());
+    save(adding("7u"));
+    EXPECT_TRUE(wakes(kPatience));
+    reloader().next(Kind::Reloaded, "increment");
+    save("no kernel");
+    EXPECT_TRUE(wakes(kPatience));
+    reloader().next(Kind::Refused, "increment");
+    EXPECT_EQ(added(), 7u);
+}
+
 TEST_F(Reload, SaysThatASaveChangedNothing) {
     save(source() + "// a remark\n");
     reloader().next(Kind::Unchanged, "increment");

@@ -21,14 +21,18 @@ using engine::Result;
 using Clock = std::chrono::steady_clock;
 
 constexpr size_t kTimedSteps = 60;
+// How long the scene rests after a step where those who compile an edit share its cores, as a multiple of the step, and at
+// most.
+constexpr int kYield = 4;
+constexpr std::chrono::milliseconds kLongestRest{100};
 
 volatile std::sig_atomic_t interrupted = 0;
 
 class LiveScene {
 public:
     LiveScene(const Options& options, cli::StagedScene& staged, brittle::World& world, engine::ShaderReloader& reloader,
-              SceneWindow* window)
-        : options_(options), staged_(staged), world_(world), reloader_(reloader), window_(window) {}
+              SceneWindow* window, bool is_cpu)
+        : options_(options), staged_(staged), world_(world), reloader_(reloader), window_(window), is_cpu_(is_cpu) {}
 
     Result<void> run() {
         auto beginning = world_.save();
@@ -36,11 +40,14 @@ public:
         beginning_ = std::move(*beginning);
         const auto pace = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(staged_.scene.step.dt));
         for (Clock::time_point next = Clock::now(); goesOn(); next = std::max(next + pace, Clock::now() - pace)) {
-            if (auto followed = follow(); !followed) return followed;
+            const Clock::time_point begun = Clock::now();
             if (auto stepped = step(); !stepped) return stepped;
             if (window_ != nullptr)
                 if (auto shown = window_->show(); !shown) return shown;
-            std::this_thread::sleep_until(next);
+            if (is_cpu_ && reloader_.isAwaited()) next = std::max(next, Clock::now() + restAfter(Clock::now() - begun));
+            do {
+                if (auto followed = follow(); !followed) return followed;
+            } while (reloader_.waitUntil(next));
         }
         return tellEnd();
     }
@@ -50,6 +57,8 @@ private:
         if (interrupted != 0 || (window_ != nullptr && window_->isClosed())) return false;
         return !options_.steps || steps_ < *options_.steps;
     }
+
+    static Clock::duration restAfter(Clock::duration step) { return std::min<Clock::duration>(kYield * step, kLongestRest); }
 
     Result<void> follow() {
         const std::vector<ReloadEvent> events = reloader_.swap();
@@ -94,6 +103,7 @@ private:
     brittle::World& world_;
     engine::ShaderReloader& reloader_;
     SceneWindow* window_;
+    bool is_cpu_;
     engine::KernelTimes times_{kTimedSteps};
     std::vector<std::byte> beginning_;
     uint32_t steps_ = 0;
@@ -128,7 +138,7 @@ Result<void> runLive(const Options& options) {
                 (*world)->kernels().kernelCount(), options.folder.c_str(), options.steps ? "" : "; Ctrl+C ends");
     std::fflush(stdout);
     stopWhenInterrupted();
-    return LiveScene(options, *staged, **world, **reloader, window->get()).run();
+    return LiveScene(options, *staged, **world, **reloader, window->get(), (*device)->isCpu()).run();
 }
 
 } // namespace shader_reload
