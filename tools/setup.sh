@@ -12,6 +12,8 @@ packages=(
   libassimp-dev libcli11-dev libeigen3-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
   # the window of shader_reload, which does without it
   libglfw3-dev
+  # the allocator of shader_reload, which does without it
+  libmimalloc-dev
   # films; only brittle simulate -o FILE.mp4 and its test ask for it
   ffmpeg
   # the tests of the page of brittle accuracy
