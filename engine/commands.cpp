@@ -216,7 +216,7 @@ bool Commands::prepare(const Kernel& kernel, Bytes push, Views buffers, const Bu
     vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->handle());
     if (pipelines_.empty() || pipelines_.back() != kernel.pipeline) pipelines_.push_back(kernel.pipeline);
     if (!push.empty()) {
-        vk.vkCmdPushConstants(commands_, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size,
+        vk.vkCmdPushConstants(commands_, kernel.pipeline->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size,
                               push.data());
     }
     return bindBuffers(kernel, buffers);
@@ -268,17 +268,17 @@ bool Commands::bindBuffers(const Kernel& kernel, Views buffers) {
     write.pBufferInfo = infos.data();
     const VolkDeviceTable& vk = device_.vk();
     if (device_.hasPushDescriptors()) {
-        vk.vkCmdPushDescriptorSetKHR(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &write);
+        vk.vkCmdPushDescriptorSetKHR(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->layout(), 0, 1, &write);
         return true;
     }
-    auto set = descriptors_.allocate(kernel.set_layout, kernel.bufferCount());
+    auto set = descriptors_.allocate(kernel.pipeline->setLayout(), kernel.bufferCount());
     if (!set) {
         fail(set.error());
         return false;
     }
     write.dstSet = *set;
     vk.vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
-    vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &*set, 0, nullptr);
+    vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline->layout(), 0, 1, &*set, 0, nullptr);
     return true;
 }
 

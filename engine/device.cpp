@@ -107,6 +107,7 @@ Result<void> Device::open(const DeviceOptions& options) {
     physical_ = *chosen;
     readProperties();
     minimal_ = options.minimal;
+    if (options.share_pipelines) shared_pipelines_ = std::make_unique<SharedPipelines>();
     if (!minimal_) features_ = optionalFeatures(instance_vk_, physical_);
     if (options.force_pooled_descriptors || gpuAssistedValidationIsOn()) features_.push_descriptors = false;
 
@@ -185,6 +186,7 @@ Result<void> Device::createLogical() {
 Device::~Device() {
     if (handle_ == VK_NULL_HANDLE) return;
     waitIdle();
+    shared_pipelines_.reset();
     if (pipeline_cache_ != VK_NULL_HANDLE) table_.vkDestroyPipelineCache(handle_, pipeline_cache_, nullptr);
     memory_.reset();
     if (isForeign()) return;

@@ -5,6 +5,7 @@
 #include "engine/device_select.h"
 #include "engine/instance.h"
 #include "engine/memory.h"
+#include "engine/pipeline.h"
 
 #include <memory>
 #include <mutex>
@@ -17,6 +18,9 @@ struct DeviceOptions {
     std::string select;                    // a part of the name or an index; empty: BRITTLE_DEVICE, else the best
     bool force_pooled_descriptors = false; // as if there were no push descriptors
     bool minimal = false;                  // nothing optional at all, as a host engine's device may be
+    // All kernel libraries of this device share pipelines, which live as long as the device: for programs that make many
+    // worlds or breaks one after the other. Without, a pipeline goes with the last that uses it.
+    bool share_pipelines = false;
 };
 
 // A device that another has made, whose owner keeps it, and all it was made from, for longer than what is made from it here.
@@ -78,6 +82,7 @@ public:
     VkPhysicalDevice physical() const { return physical_; }
     const VolkDeviceTable& vk() const { return table_; }
     VkPipelineCache pipelineCache() const { return pipeline_cache_; }
+    SharedPipelines* sharedPipelines() { return shared_pipelines_.get(); } // nullptr where libraries have their own
     MemoryPool& memory() { return *memory_; }
     // Bytes that hosts have asked to be copied from the device to where they can read them, pictures left out.
     uint64_t readBackBytes() const { return read_back_bytes_; }
@@ -120,6 +125,7 @@ private:
     VkDevice handle_ = VK_NULL_HANDLE;
     VolkDeviceTable table_{};
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
+    std::unique_ptr<SharedPipelines> shared_pipelines_;
     std::unique_ptr<MemoryPool> memory_;
     uint64_t read_back_bytes_ = 0;
     std::mutex submit_mutex_;

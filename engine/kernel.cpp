@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstddef>
 #include <exception>
 #include <optional>
 #include <thread>
@@ -62,16 +61,10 @@ void specializeLocalSize(Reflection& reflection, std::span<const SpecConstant> c
 
 } // namespace
 
-Pipeline::~Pipeline() { device_.vk().vkDestroyPipeline(device_.handle(), handle_, nullptr); }
-
 KernelLibrary::KernelLibrary(Device& device, std::span<const shaders::Module> modules, std::vector<SpecConstant> common)
     : device_(device), modules_(modules), common_(std::move(common)) {}
 
-KernelLibrary::~KernelLibrary() {
-    device_.waitIdle();
-    for (const auto& [key, kernel] : kernels_)
-        destroy(*kernel);
-}
+KernelLibrary::~KernelLibrary() { device_.waitIdle(); }
 
 Result<const Kernel*> KernelLibrary::get(std::string_view name, std::span<const uint32_t> spec) {
     Key key{std::string(name), {spec.begin(), spec.end()}};
@@ -87,9 +80,7 @@ Result<const Kernel*> KernelLibrary::get(std::string_view name, std::span<const 
         if (!made) return made.error();
         const std::lock_guard lock(mutex_);
         const bool replaced_meanwhile = latestCode(name).words.data() != code->words.data();
-        const auto [place, inserted] =
-            replaced_meanwhile ? std::pair(kernels_.find(key), false) : kernels_.try_emplace(key, std::move(*made));
-        if (!inserted) destroy(**made);
+        const auto place = replaced_meanwhile ? kernels_.find(key) : kernels_.try_emplace(key, std::move(*made)).first;
         if (place != kernels_.end()) return place->second.get();
     }
 }
@@ -115,6 +106,15 @@ Result<void> KernelLibrary::warm(std::span<const KernelRequest> requests) {
     }
     if (failure) return *failure;
     return {};
+}
+
+bool KernelLibrary::isShared(std::string_view name) const {
+    const SharedPipelines* shared = device_.sharedPipelines();
+    if (shared == nullptr) return false;
+    const auto code = codeOf(name);
+    if (!code) return false;
+    const auto reflection = reflect(code->words);
+    return reflection && shared->has(code->words, constantsOf(*reflection, {}));
 }
 
 uint32_t KernelLibrary::kernelCount() const {
@@ -144,18 +144,11 @@ Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::
     const std::vector<SpecConstant> constants = constantsOf(kernel->reflection, spec);
     specializeLocalSize(kernel->reflection, constants);
     kernel->constants = constants;
-    auto made = checkInterface(*kernel, device_.limits());
-    if (made) made = makeLayouts(*kernel);
-    if (made) {
-        auto pipeline = makePipeline(*kernel, code.words);
-        if (pipeline) {
-            kernel->pipeline = std::move(*pipeline);
-            return kernel;
-        }
-        made = pipeline.error();
-    }
-    destroy(*kernel);
-    return made.error();
+    if (auto fit = checkInterface(*kernel, device_.limits()); !fit) return fit.error();
+    auto pipeline = makePipeline(*kernel, code.words);
+    if (!pipeline) return pipeline.error();
+    kernel->pipeline = std::move(*pipeline);
+    return kernel;
 }
 
 KernelLibrary::Code KernelLibrary::latestCode(std::string_view name) const {
@@ -183,70 +176,18 @@ std::vector<SpecConstant> KernelLibrary::constantsOf(const Reflection& reflectio
     return constants;
 }
 
-Result<void> KernelLibrary::makeLayouts(Kernel& kernel) const {
-    const VolkDeviceTable& vk = device_.vk();
-    std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (uint32_t i = 0; i < kernel.bufferCount(); ++i)
-        bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-    VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    set.flags = device_.hasPushDescriptors() ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
-    set.bindingCount = kernel.bufferCount();
-    set.pBindings = bindings.data();
-    VkResult made = vk.vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &kernel.set_layout);
-    if (made != VK_SUCCESS) return vulkanError("descriptor layout of kernel \"" + kernel.name + "\"", made);
-
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.reflection.push_size};
-    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layout.setLayoutCount = 1;
-    layout.pSetLayouts = &kernel.set_layout;
-    layout.pushConstantRangeCount = push.size > 0 ? 1 : 0;
-    layout.pPushConstantRanges = &push;
-    made = vk.vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &kernel.layout);
-    if (made != VK_SUCCESS) return vulkanError("layout of kernel \"" + kernel.name + "\"", made);
-    return {};
-}
-
 Result<std::shared_ptr<const Pipeline>> KernelLibrary::makePipeline(const Kernel& kernel, std::span<const uint32_t> words) {
-    const VolkDeviceTable& vk = device_.vk();
-    const auto start = std::chrono::steady_clock::now();
-    VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    code.codeSize = words.size_bytes();
-    code.pCode = words.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    VkResult made = vk.vkCreateShaderModule(device_.handle(), &code, nullptr, &module);
-    if (made != VK_SUCCESS) return vulkanError("module of kernel \"" + kernel.name + "\"", made);
-
-    const std::vector<SpecConstant>& spec = kernel.constants;
-    std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < spec.size(); ++i)
-        entries.push_back({spec[i].id, static_cast<uint32_t>(i * sizeof(SpecConstant) + offsetof(SpecConstant, value)), 4});
-    const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(),
-                                         spec.size() * sizeof(SpecConstant), spec.data()};
-    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  nullptr,
-                  0,
-                  VK_SHADER_STAGE_COMPUTE_BIT,
-                  module,
-                  "main",
-                  spec.empty() ? nullptr : &constants};
-    info.layout = kernel.layout;
-    VkPipeline handle = VK_NULL_HANDLE;
-    made = vk.vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &handle);
-    vk.vkDestroyShaderModule(device_.handle(), module, nullptr);
-    if (made != VK_SUCCESS) return vulkanError("pipeline of kernel \"" + kernel.name + "\"", made);
-
-    device_.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(handle), kernel.name);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    const std::lock_guard lock(mutex_);
-    creation_ms_ += took.count();
-    return std::make_shared<const Pipeline>(device_, handle);
-}
-
-void KernelLibrary::destroy(const Kernel& kernel) const {
-    const VolkDeviceTable& vk = device_.vk();
-    vk.vkDestroyPipelineLayout(device_.handle(), kernel.layout, nullptr);
-    vk.vkDestroyDescriptorSetLayout(device_.handle(), kernel.set_layout, nullptr);
+    const PipelineSource source{kernel.name, words, kernel.constants, kernel.bufferCount(), kernel.reflection.push_size};
+    const auto make = [&] {
+        const auto start = std::chrono::steady_clock::now();
+        auto pipeline = Pipeline::create(device_, source);
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+        const std::lock_guard lock(mutex_);
+        creation_ms_ += took.count();
+        return pipeline;
+    };
+    SharedPipelines* shared = device_.sharedPipelines();
+    return shared != nullptr ? shared->get(source, make) : make();
 }
 
 } // namespace engine

@@ -1,8 +1,8 @@
 // Compute pipelines by name, made when first asked for, with everything about them read from their SPIR-V.
 #pragma once
 
+#include "engine/pipeline.h"
 #include "engine/reflection.h"
-#include "engine/vulkan.h"
 #include "shaders-spirv/embedded.h"
 
 #include <map>
@@ -15,35 +15,12 @@
 
 namespace engine {
 
-class Device;
-
 // The most buffers that one kernel may bind; every device is asked for 16, those with more may use them.
 constexpr uint32_t kMaxBindings = 32;
-
-struct SpecConstant {
-    uint32_t id = 0; // constant_id, or local_size_x_id
-    uint32_t value = 0;
-};
-
-// Shared by the kernel and every recording that uses it: one that was replaced lives until the last of these is gone.
-class Pipeline {
-public:
-    Pipeline(Device& device, VkPipeline handle) : device_(device), handle_(handle) {}
-    ~Pipeline();
-    Pipeline(const Pipeline&) = delete;
-    Pipeline& operator=(const Pipeline&) = delete;
-    VkPipeline handle() const { return handle_; }
-
-private:
-    Device& device_;
-    VkPipeline handle_;
-};
 
 struct Kernel {
     std::string name;
     Reflection reflection; // local_size as it was specialized
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
     std::shared_ptr<const Pipeline> pipeline;
 
     std::vector<SpecConstant> constants; // that it was specialized with
@@ -91,13 +68,15 @@ public:
     Result<void> adopt(std::span<KernelReplacement> replacements);
     // Whether it was asked for, and with which constants.
     bool has(std::string_view name) const;
+    // Whether get() would find the pipeline among those that the libraries of its device share.
+    bool isShared(std::string_view name) const;
     std::vector<std::vector<SpecConstant>> specializationsOf(std::string_view name) const;
 
     std::span<const shaders::Module> modules() const { return modules_; }
     const std::vector<SpecConstant>& common() const { return common_; }
     uint32_t kernelCount() const;
     std::vector<std::string> kernelNames() const; // of those made so far, in order, each once
-    double creationMs() const; // in the driver, added up over all pipelines, also those made at the same time
+    double creationMs() const; // in the driver, added up over all pipelines made here, also those made at the same time
 
 private:
     using Key = std::pair<std::string, std::vector<uint32_t>>;
@@ -114,9 +93,7 @@ private:
     bool covers(const KernelReplacement& replacement) const; // with the lock held
     void install(const KernelReplacement& replacement);      // likewise
     std::vector<SpecConstant> constantsOf(const Reflection& reflection, std::span<const uint32_t> spec) const;
-    Result<void> makeLayouts(Kernel& kernel) const;
     Result<std::shared_ptr<const Pipeline>> makePipeline(const Kernel& kernel, std::span<const uint32_t> words);
-    void destroy(const Kernel& kernel) const;
 
     Device& device_;
     std::span<const shaders::Module> modules_;

@@ -20,7 +20,6 @@ Result<KernelReplacement> KernelLibrary::prepare(std::string_view name, KernelWo
     return replacement;
 }
 
-// Layouts stay: the interface is the same.
 Result<void> KernelLibrary::complete(KernelReplacement& replacement) {
     for (const auto& [key, kernel] : kernelsNamed(replacement.name)) {
         if (replacement.pipelines.contains(key.second)) continue;

@@ -6,11 +6,14 @@
 namespace engine {
 namespace {
 
-void compileOnTwin(const std::stop_token& stop, const Device& device, std::span<const shaders::Module> modules,
-                   const std::vector<SpecConstant>& common, const std::vector<std::string_view>& kernels) {
+// What libraries share somebody else has asked for, and compiles.
+void compileOnTwin(const std::stop_token& stop, const Device& device, const KernelLibrary& of,
+                   std::vector<std::string_view> kernels) {
+    std::erase_if(kernels, [&](std::string_view kernel) { return of.isShared(kernel); });
+    if (kernels.empty()) return;
     auto twin = KernelTwin::create(device);
     if (!twin) return;
-    KernelLibrary library((*twin)->device(), modules, common);
+    KernelLibrary library((*twin)->device(), of.modules(), of.common());
     for (const std::string_view kernel : kernels) {
         if (stop.stop_requested()) return;
         (*twin)->compile(library, kernel);
@@ -32,9 +35,8 @@ KernelWarmup::KernelWarmup(Device& device, KernelLibrary& library, std::vector<s
     if (device.isCpu() && !KernelTwin::helps(device)) return;
     if (device.gpuAssistedValidation()) return; // as there
     if (device.isCpu()) {
-        thread_ = std::jthread([&device, modules = library.modules(), common = library.common(),
-                                names = std::move(names)](const std::stop_token& stop) {
-            quietly([&] { compileOnTwin(stop, device, modules, common, names); });
+        thread_ = std::jthread([&device, &library, names = std::move(names)](const std::stop_token& stop) mutable {
+            quietly([&] { compileOnTwin(stop, device, library, std::move(names)); });
         });
         return;
     }

@@ -52,7 +52,7 @@ void keepHardCases(accuracy::Results& results, const std::filesystem::path& fold
 // What may be wrong is looked for before anything is measured, which takes minutes.
 int measureAnew(const AccuracyOptions& options) {
     if (auto sound = checkModels(options.sweep.models); !sound) return fail(sound.error());
-    const auto device = engine::Device::create({.select = options.device});
+    const auto device = engine::Device::create({.select = options.device, .share_pipelines = true});
     if (!device) return fail(device.error());
     accuracy::ResultFiles files;
     if (auto opened = files.open(options.folder, {accuracy::kResultsFile, accuracy::kTableFile, accuracy::kPageFile}); !opened)
