@@ -1,7 +1,9 @@
-// Pipelines that libraries have in common.
+// Pipelines that libraries have in common, and kernels that are compiled before they are met.
+#include "engine/kernels_ahead.h"
 #include "tests/engine/test_device.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -106,4 +108,24 @@ TEST(SharedPipelines, AreNoneWhereNobodyAskedForThem) {
     KernelLibrary one(device(), shaders::engineTestKernels()), two(device(), shaders::engineTestKernels());
     EXPECT_NE(pipelineOf(one, "increment"), pipelineOf(two, "increment"));
     EXPECT_FALSE(two.isShared("increment"));
+}
+
+TEST(KernelsAhead, AreAsUsableAsOthersAndNamesThatAreNoneDoNoHarm) {
+    const std::vector<KernelAhead> kernels = {
+        {"increment", {}}, {"no kernel of ours", {}}, {"add_index", {{0, 5}}}, {"sized_workgroup", {{100, 32}}}};
+    std::vector<size_t> shown;
+    compileAhead(device(), shaders::engineTestKernels(), kernels, [&](size_t begun) { shown.push_back(begun); });
+    EXPECT_TRUE(std::ranges::is_sorted(shown));
+    for (const size_t begun : shown)
+        EXPECT_LT(begun, kernels.size());
+    EXPECT_EQ(incremented(device(), testKernel(device(), "increment"), 41), 42u);
+}
+
+TEST(KernelsAhead, AreNotCompiledForACacheThatIsOff) {
+    const char* before = std::getenv("MESA_SHADER_CACHE_DISABLE");
+    const std::string value = before == nullptr ? "" : before;
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    const std::vector<KernelAhead> kernels = {{"increment", {}}};
+    compileAhead(device(), shaders::engineTestKernels(), kernels, [](size_t) { ADD_FAILURE() << "for nothing"; });
+    before == nullptr ? unsetenv("MESA_SHADER_CACHE_DISABLE") : setenv("MESA_SHADER_CACHE_DISABLE", value.c_str(), 1);
 }

@@ -11,6 +11,8 @@
 
 namespace accuracy {
 
+constexpr double kQuickSeconds = 170; // three minutes, less what an estimate may be off by
+
 struct Options {
     bool is_quick = false;
     std::vector<std::string> models; // files or builtin:NAME, besides the workloads that are always there
@@ -23,8 +25,13 @@ struct Sweep {
     const Options& options;
     ProgressEstimate& progress;
     Results& results;
+
+    // A quick run that will not be over in time does as little as its results can do with, where there is a choice.
+    bool isLate() const { return options.is_quick && progress.expectedSeconds() > kQuickSeconds; }
 };
 
+// Compiles what drivers would compile one after the other while it is measured.
+engine::Result<void> compileKernels(Sweep& sweep);
 // Each adds its workloads, kinds of errors and measurements.
 engine::Result<void> sweepFracture(Sweep& sweep);
 engine::Result<void> sweepColliders(Sweep& sweep);
