@@ -2,6 +2,7 @@
 
 #include "tools/brittle/model.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 
@@ -11,6 +12,8 @@ namespace {
 using brittle::FractureOptions;
 using brittle::FractureResult;
 using engine::Result;
+
+constexpr uint32_t kFewestRounds = 3; // that have a median and quartiles
 
 template <class T>
 bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -38,13 +41,10 @@ public:
     Result<void> run() {
         for (const FractureSetting& setting : case_.settings)
             if (auto added = addCandidate(setting); !added) return added;
-        for (uint32_t round = 0; round < sweep_.options.rounds(); ++round)
-            for (size_t k = 0; k < candidates_.size(); ++k) { // another one begins each round
-                Candidate& candidate = candidates_[(k + round) % candidates_.size()];
-                showRound(round);
-                if (candidate.measurement.failed.empty())
-                    if (auto timed = runOnce(candidate); !timed) return timed.error();
-            }
+        uint32_t round = 0;
+        for (; round < sweep_.options.rounds() && !(round >= kFewestRounds && sweep_.isLate()); ++round)
+            if (auto done = runRound(round); !done) return done;
+        sweep_.results.machine.rounds = std::min(sweep_.results.machine.rounds, round);
         for (Candidate& candidate : candidates_) {
             candidate.measurement.ms = samplesOf(std::move(candidate.ms));
             sweep_.results.measurements.push_back(std::move(candidate.measurement));
@@ -53,6 +53,16 @@ public:
     }
 
 private:
+    Result<void> runRound(uint32_t round) {
+        for (size_t k = 0; k < candidates_.size(); ++k) { // another one begins each round
+            Candidate& candidate = candidates_[(k + round) % candidates_.size()];
+            showRound(round);
+            if (candidate.measurement.failed.empty())
+                if (auto timed = runOnce(candidate); !timed) return timed.error();
+        }
+        return {};
+    }
+
     void showRound(uint32_t round) const {
         const double done = (1.0 + round) / (1.0 + sweep_.options.rounds());
         sweep_.progress.show(case_.workload.name, case_.before + case_.share * done);
