@@ -404,7 +404,7 @@ typedef struct BrittleBodyState {
     BrittleVec3
         shape_position; /* of a body or collider, of the frame that its shape was given in; of a fragment as the two above */
     BrittleQuat shape_rotation;
-    BrittleVec3 velocity; /* of the center of mass */
+    BrittleVec3 velocity; /* m/s, of the center of mass, half a substep before: what falls has g h / 2 more */
     BrittleVec3 spin;     /* world axes */
     double mass;          /* kg; 0 for what does not move */
     double left;          /* 1; of debris that fades less, down to 0 */

@@ -78,7 +78,7 @@ bool turnsUntil(float time, uvec4 ids) {
 // No faster than this they come closer anywhere.
 float mostSpeedOf(uvec4 ids) {
     vec3 apart = bodies[ids.y].velocity.xyz - bodies[ids.x].velocity.xyz;
-    return length(apart) + gravity.w * length(gravity.xyz) + rimSpeed(ids.x) + rimSpeed(ids.y);
+    return length(apart) + duration * length(gravity.xyz) + rimSpeed(ids.x) + rimSpeed(ids.y);
 }
 
 bool isSwift(uvec4 ids) { return duration * (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) > kSwift; }

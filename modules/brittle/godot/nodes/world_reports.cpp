@@ -130,14 +130,14 @@ void WorldNode::addEmissions(const BrittleBreak& event, std::vector<Emission>& e
          {position, normal, event.speed, event.crack_energy, static_cast<int64_t>(event.fragments), by, copyOf(link)}});
 }
 
-// Once for each reason.
+// Once for each reason that a budget can do something about: that cracks would cost more than a blow has is no fault of the
+// scene's.
 void WorldNode::warnOfWhole(const BrittleBreak& event) {
+    if (event.outcome == BRITTLE_WHOLE_TOO_DEAR || event.outcome == BRITTLE_WHOLE_ONE_PIECE) return;
     if ((told_outcomes_ & 1u << event.outcome) != 0) return;
     told_outcomes_ |= 1u << event.outcome;
     std::string why = "it could not be cut, or the budget of a step was too small";
     if (event.outcome == BRITTLE_WHOLE_NO_ROOM) why = "there is no room for its fragments";
-    if (event.outcome == BRITTLE_WHOLE_TOO_DEAR) why = "its cells have more faces between them than the blow could pay for";
-    if (event.outcome == BRITTLE_WHOLE_ONE_PIECE) why = "all of it is one cell's";
     if (event.outcome == BRITTLE_WHOLE_TOO_LARGE) why = "no step has room for it";
     if (event.outcome == BRITTLE_WHOLE_NO_PAIRS) why = "there is no room for the pairs and contacts that its fragments need";
     tellWarning(self().call("to_string").asString() + ": a body that was hit hard enough stays whole: " + why +
