@@ -1,7 +1,8 @@
 // Has a CPU's driver compile many kernels side by side before any of them is met.
 //
 // It would compile each at its first dispatch, one after the other on the queue's own thread (kernel_twin.h), while all other
-// cores wait. Here every core gets a second device; the driver's cache on disk carries the outcome over.
+// cores wait. Here every core gets a second device; the driver's cache on disk carries the outcome over. The
+// devices are not kept: the driver writes its cache behind one's back, and is done with it for certain only when they are gone.
 #pragma once
 
 #include "engine/kernel.h"

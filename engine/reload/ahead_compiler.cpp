@@ -1,35 +1,30 @@
 #include "engine/reload/ahead_compiler.h"
 
-#include <algorithm>
+#include "engine/kernels_ahead.h"
 
 namespace engine {
+namespace {
 
-AheadCompilation::AheadCompilation(const Device& device, std::string name, KernelWords words,
-                                   std::vector<Specialization> specializations)
-    : device_(device), name_(std::move(name)), words_(std::move(words)), specializations_(std::move(specializations)) {
-    if (!KernelTwin::helps(device)) return;
-    const size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    for (size_t k = 0; k < std::min(cores, specializations_.size()); ++k)
-        threads_.emplace_back([this] {
-            try {
-                work();
-            } catch (...) { // what a thread throws ends the process, and nothing here is worth that
-            }
-        });
+void compileAll(const Device& device, const std::string& name, const KernelWords& words,
+                std::vector<Specialization> specializations) {
+    const shaders::Module module{name, *words, {}, {}};
+    std::vector<KernelAhead> kernels;
+    for (Specialization& constants : specializations)
+        kernels.push_back({name, std::move(constants)});
+    compileAhead(device, {&module, 1}, kernels, {});
 }
 
-void AheadCompilation::work() {
-    std::unique_ptr<KernelTwin> twin;
-    const shaders::Module module{name_, *words_, {}, {}};
-    for (size_t k = next_++; k < specializations_.size(); k = next_++) {
-        if (!twin) {
-            auto made = KernelTwin::create(device_);
-            if (!made) return;
-            twin = std::move(*made);
+} // namespace
+
+AheadCompilation::AheadCompilation(const Device& device, std::string name, KernelWords words,
+                                   std::vector<Specialization> specializations) {
+    if (specializations.empty()) return;
+    thread_ = std::jthread([&device, name = std::move(name), words = std::move(words), all = std::move(specializations)] {
+        try {
+            compileAll(device, name, words, all);
+        } catch (...) { // what a thread throws ends the process, and nothing here is worth that
         }
-        KernelLibrary library(twin->device(), {&module, 1}, specializations_[k]);
-        twin->compile(library, name_);
-    }
+    });
 }
 
 } // namespace engine

@@ -31,7 +31,7 @@ layout(push_constant) uniform Push {
     uint is_first;
 };
 #include "lib/turning_contact.glsl"
-#include "lib/rim_speed.glsl"
+#include "lib/most_closing.glsl"
 
 const float kFurthest = 2.0; // steps ahead
 const float kBack = 1.0;
@@ -39,19 +39,19 @@ const float kBack = 1.0;
 // Where no point comes closer, or there is none, another may: they go on for as long as they cannot meet along the axis, or, where that
 // is not known, along any (conservative advancement, Mirtich 1996).
 void goCloser(float gap, vec3 axis, inout TurningBlow t) {
-    vec3 apart = bodies[t.ids.z].velocity.xyz - bodies[t.ids.y].velocity.xyz;
-    float nearing = axis == vec3(0.0) ? length(apart) : -dot(axis, apart);
-    float closing = nearing + duration * length(gravity.xyz) + rimSpeed(t.ids.y) + rimSpeed(t.ids.z);
+    float closing = mostClosing(t.ids.y, t.ids.z, axis, gravity.xyz, duration);
     t.ids.w = gap > 0.0 && closing > 0.0 ? 0u : 1u;
     t.time = vec4(t.time.x + gap / closing, t.time.x, gap, 0.0);
 }
 
-void setTime(uint k, inout TurningBlow t) {
-    bool has_points = manifolds[k].info.x != 0u;
-    TurningContact c = contactOf(k, t);
-    if (!has_points) goCloser(manifolds[k].normal.w, vec3(0.0), t);
-    else if (c.closing <= 0.0 && !isWithin(c, t)) goCloser(c.separation, manifolds[k].normal.xyz, t);
+void goOn(uint k, TurningContact c, inout TurningBlow t) {
+    if (c.closing <= 0.0 && !isWithin(c, t)) goCloser(c.separation, manifolds[k].normal.xyz, t);
     else t.time = vec4(meetingTime(c, t), c.separation > 0.0 ? vec2(t.time.x, c.separation) : t.time.yz, 0.0);
+}
+
+void setTime(uint k, inout TurningBlow t) {
+    if (manifolds[k].info.x == 0u) goCloser(manifolds[k].normal.w, vec3(0.0), t);
+    else goOn(k, contactOf(k, t), t);
     if (t.time.x > kFurthest * duration) t.ids.w = 1u;
     t.time.x = max(t.time.x, -kBack * duration);
 }

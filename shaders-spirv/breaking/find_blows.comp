@@ -30,7 +30,7 @@ layout(push_constant) uniform Push {
 #include "lib/component.glsl"
 #include "lib/judge_blow.glsl"
 #include "lib/meeting.glsl"
-#include "lib/rim_speed.glsl"
+#include "lib/most_closing.glsl"
 
 const float kTurned = 1e-3; // rad: by no more, a blow is the same
 // What turns may meet so much later than it seems, and so much faster.
@@ -68,20 +68,11 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
     return true;
 }
 
-float horizon() { return duration + AHEAD_OF_STEP * gravity.w; }
+// rad, of both together.
+float turnIn(float time, uvec4 ids) { return (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) * time; }
 
-bool turnsUntil(float time, uvec4 ids) {
-    float turning_ = length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz);
-    return turning_ * min(abs(time), duration) > kTurned;
-}
-
-// No faster than this they come closer anywhere.
-float mostSpeedOf(uvec4 ids) {
-    vec3 apart = bodies[ids.y].velocity.xyz - bodies[ids.x].velocity.xyz;
-    return length(apart) + duration * length(gravity.xyz) + rimSpeed(ids.x) + rimSpeed(ids.y);
-}
-
-bool isSwift(uvec4 ids) { return duration * (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) > kSwift; }
+bool turnsUntil(float time, uvec4 ids) { return turnIn(min(abs(time), duration), ids) > kTurned; }
+bool isSwift(uvec4 ids) { return turnIn(duration, ids) > kSwift; }
 
 // `time`: as in TurningBlow.
 void listTurning(uint pair, uvec4 ids, BlowRecord most, vec3 time) {
@@ -97,7 +88,7 @@ void judgeTurning(uint p, uvec4 ids, Meeting met) {
 
 // Where they will touch by then, if they do, may be nowhere near the points that they have now.
 void judgeSwift(uint p, uvec4 ids, bool is_met, Meeting met) {
-    float speed = mostSpeedOf(ids), least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
+    float speed = mostClosing(ids.x, ids.y, vec3(0.0), gravity.xyz, duration), least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
     float soonest = ids.z == 0u ? memory[p].place.w / speed : 0.0;
     vec3 time = is_met ? vec3(min(met.time, horizon()), 0.0, max(met.separation, 0.0)) : vec3(soonest, 0.0, 0.0);
     if (soonest <= horizon()) listTurning(p, ids, blowAt(least_yield, speed, 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), time);

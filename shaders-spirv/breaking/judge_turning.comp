@@ -55,15 +55,18 @@ void judge(uint k, TurningBlow t, TurningContact c, float time) {
     tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, c.closing, max(time, 0.0) / duration, arm_a, arm_b, normal));
 }
 
+void judgePoints(uint k, TurningBlow t) {
+    TurningContact c = contactOf(k, t);
+    bool comes = c.closing > 0.0;
+    float time = comes ? meetingTime(c, t) : t.time.x;
+    if (time > horizon()) leave(t.ids.x);
+    else if (comes) judge(k, t, c, time);
+}
+
 void main() {
     uint k = flatIndex();
     if (k >= counts[COUNT_TURNING]) return;
     TurningBlow t = turning[k];
-    float horizon = duration + AHEAD_OF_STEP * gravity.w, time = t.time.x;
-    bool has_points = t.ids.w == 0u && manifolds[k].info.x != 0u;
-    TurningContact c = contactOf(k, t);
-    bool comes = has_points && c.closing > 0.0;
-    if (comes) time = meetingTime(c, t);
-    if (time > horizon) leave(t.ids.x);
-    else if (comes) judge(k, t, c, time);
+    if (t.ids.w == 0u && manifolds[k].info.x != 0u) judgePoints(k, t);
+    else if (t.time.x > horizon()) leave(t.ids.x);
 }

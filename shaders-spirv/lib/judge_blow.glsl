@@ -1,8 +1,11 @@
 // What a blow breaks, by its energy, its speed and the materials; and its record. Wants `bodies`, `breakable`, `cards`, `steps`, `counts`,
-// `blows`, `hardest` and `duration` declared.
+// `blows`, `hardest`, `duration`, and `gravity`, whose w is the length of a substep, declared.
 #include "lib/break_pattern.glsl"
 #include "lib/breaking_laws.glsl"
 #include "lib/takes_part.glsl"
+
+// Until when a blow is one of this step, s.
+float horizon() { return duration + AHEAD_OF_STEP * gravity.w; }
 
 bool canBreak(uint body) {
     return breakable[body].surface.y > 0u && float(steps[STEPS_MADE]) * duration >= breakable[body].form.w;

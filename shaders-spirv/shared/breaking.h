@@ -63,7 +63,7 @@ struct Birth {
 struct BlowRecord {
     uvec4 sides; // BREAKS_*, 0 for what breaks nothing; y: as the bits of a float, when they meet, in steps from the beginning of this one
     vec4 blow;   // effective mass, speed of meeting, its energy; w: share of the step that is over when they meet
-    vec4 arm_a;  // of the middle of its points, world axes, as the bodies stand when the step begins
+    vec4 arm_a;  // of where it acts, world axes, as the bodies stand when the step begins
     vec4 arm_b;
     vec4 along; // normal, from A to B, when they meet
 };

@@ -120,9 +120,10 @@ Throw randomThrow(std::mt19937& random) {
     const auto turn = [&] {
         return Eigen::Quaterniond(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)).normalized();
     };
+    const auto spunAxis = [&] { return static_cast<uint32_t>(random() % 3); };
     Throw t;
-    t.a = {{1, 0.06, 0.06}, {-1.1, 0, 0}, {between(9, 14), 0, 0}, turn(), random() % 3, between(-30, 30)};
-    t.b = {{0.8, 0.1, 0.3}, {1.1, between(-0.1, 0.1), between(-0.1, 0.1)}, {between(-8, -4), 0, 0}, turn(), random() % 3,
+    t.a = {{1, 0.06, 0.06}, {-1.1, 0, 0}, {between(9, 14), 0, 0}, turn(), spunAxis(), between(-30, 30)};
+    t.b = {{0.8, 0.1, 0.3}, {1.1, between(-0.1, 0.1), between(-0.1, 0.1)}, {between(-8, -4), 0, 0}, turn(), spunAxis(),
            between(-30, 30)};
     return t;
 }

@@ -3,7 +3,7 @@
 namespace brittle {
 namespace {
 
-constexpr uint32_t kAttempts = 4; // each squares what is left of the error
+constexpr uint32_t kAttempts = 4; // near the meeting each squares what is left of the error
 constexpr Length kTurning = {0, COUNT_TURNING};
 
 void recordPoses(const Step& s, const PassingBuffers& p, bool is_first) {
