@@ -1,5 +1,5 @@
-// The blow that each body takes part in: its hardest, if it is the hardest of the other as well; of such that are equal, that of
-// the first pair.
+// The blow that each body takes part in: of those that come first to it the hardest, if it is that of the other as well; of such that are
+// equal, that of the first pair.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -17,7 +17,7 @@ bool isHardest(uint body, float energy) { return hardest[body] == 0u || hardest[
 
 void main() {
     uint p = flatIndex();
-    if (p >= counts[COUNT_STRUCK] || blows[p].sides.x == 0u) return;
+    if (p >= counts[COUNT_STRUCK] || blows[p].sides.z == 0u) return;
     uvec2 ids = memory[p].ids.xy;
     float energy = blows[p].blow.z;
     if (!isHardest(ids.x, energy) || !isHardest(ids.y, energy)) return;

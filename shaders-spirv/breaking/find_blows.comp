@@ -19,9 +19,8 @@ READS(5, BreakableBody, breakable);
 READS(6, MaterialCard, cards);
 READS(7, uint, steps);
 WRITES(8, BlowRecord, blows);
-UPDATES(9, uint, hardest); // energy of each body's hardest blow, as bits: of floats that are not negative the order is the same
-WRITES(10, TurningBlow, turning); // in any order: each is told of at its pair
-READS(11, BodyShape, shapes);
+WRITES(9, TurningBlow, turning); // in any order: each is told of at its pair
+READS(10, BodyShape, shapes);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of a substep, s
     float duration; // of the step, s
@@ -32,6 +31,7 @@ layout(push_constant) uniform Push {
 #include "lib/meeting.glsl"
 #include "lib/most_closing.glsl"
 
+const float kNever = 3e38;
 const float kTurned = 1e-3; // rad: by no more, a blow is the same
 // What turns may meet so much later than it seems, and so much faster.
 const float kLater = 1.5, kFaster = 1.5;
@@ -88,7 +88,8 @@ void judgeTurning(uint p, uvec4 ids, Meeting met) {
 
 // Where they will touch by then, if they do, may be nowhere near the points that they have now.
 void judgeSwift(uint p, uvec4 ids, bool is_met, Meeting met) {
-    float speed = mostClosing(ids.x, ids.y, vec3(0.0), gravity.xyz, duration), least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
+    float speed = mostClosing(ids.x, ids.y, vec3(0.0), gravity.xyz, duration);
+    float least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
     float soonest = ids.z == 0u ? memory[p].place.w / speed : 0.0;
     vec3 time = is_met ? vec3(min(met.time, horizon()), 0.0, max(met.separation, 0.0)) : vec3(soonest, 0.0, 0.0);
     if (soonest <= horizon()) listTurning(p, ids, blowAt(least_yield, speed, 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), time);
@@ -97,7 +98,7 @@ void judgeSwift(uint p, uvec4 ids, bool is_met, Meeting met) {
 void main() {
     uint p = flatIndex();
     if (p >= counts[COUNT_BOX_PAIRS]) return;
-    blows[p].sides = uvec4(0u);
+    blows[p].sides = uvec4(0u, floatBitsToUint(kNever), 0u, 0u);
     uvec4 ids = memory[p].ids;
     if (!(canBreak(ids.x) || canBreak(ids.y)) || (ids.z != 0u && touches[p] == 0u)) return;
     Meeting met;

@@ -19,9 +19,8 @@ READS(6, BreakableBody, breakable);
 READS(7, MaterialCard, cards);
 READS(8, uint, steps);
 UPDATES(9, BlowRecord, blows);
-UPDATES(10, uint, hardest);
-READS(11, ContactMemory, memory);
-WRITES(12, uint, touches);
+READS(10, ContactMemory, memory);
+WRITES(11, uint, touches);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of a substep, s
     float duration; // of the step, s

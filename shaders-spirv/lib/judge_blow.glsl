@@ -1,8 +1,7 @@
 // What a blow breaks, by its energy, its speed and the materials; and its record. Wants `bodies`, `breakable`, `cards`, `steps`, `counts`,
-// `blows`, `hardest`, `duration`, and `gravity`, whose w is the length of a substep, declared.
+// `blows`, `duration`, and `gravity`, whose w is the length of a substep, declared.
 #include "lib/break_pattern.glsl"
 #include "lib/breaking_laws.glsl"
-#include "lib/takes_part.glsl"
 
 // Until when a blow is one of this step, s.
 float horizon() { return duration + AHEAD_OF_STEP * gravity.w; }
@@ -43,9 +42,6 @@ BlowRecord blowAt(float yield_, float speed, float share, vec3 arm_a, vec3 arm_b
 
 void tellBlow(uint pair, uvec2 ids, BlowRecord record) {
     record.sides.x = sidesThatBreak(ids, record);
-    if (record.sides.x == 0u) return;
     blows[pair] = record;
-    atomicAdd(counts[COUNT_BLOWS], 1u);
-    if (takesPart(ids.x)) atomicMax(hardest[ids.x], floatBitsToUint(record.blow.z));
-    if (takesPart(ids.y)) atomicMax(hardest[ids.y], floatBitsToUint(record.blow.z));
+    if (record.sides.x != 0u) atomicAdd(counts[COUNT_BLOWS], 1u);
 }

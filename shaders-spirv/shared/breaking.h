@@ -58,10 +58,10 @@ struct Birth {
                // bodies have broken on the way to it
 };
 
-// A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the hardest, so
+// A blow that breaks what it hits, where a pair's contact was. A body takes part in one blow a step at most, the first, so
 // that who pays for its cracks is certain; the others wait for a step, as does what there is no room for.
 struct BlowRecord {
-    uvec4 sides; // BREAKS_*, 0 for what breaks nothing; y: as the bits of a float, when they meet, in steps from the beginning of this one
+    uvec4 sides; // BREAKS_*, 0 for what breaks nothing; y: as the bits of a float, when they meet, in steps from the beginning of this one, of all that meet by its end; z: 1 where nothing else comes first to either
     vec4 blow;   // effective mass, speed of meeting, its energy; w: share of the step that is over when they meet
     vec4 arm_a;  // of where it acts, world axes, as the bodies stand when the step begins
     vec4 arm_b;

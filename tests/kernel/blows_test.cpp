@@ -1,4 +1,4 @@
-// Which contacts break what they touch: find_blows, choose_blows, hold_blows and admit_breaking, on balls that meet head on.
+// Which contacts break what they touch: find_blows, drop_blows, rank_blows, choose_blows, hold_blows and admit_breaking, on balls that meet head on.
 #include "modules/brittle/effects/blow.h"
 #include "shaders-spirv/shared/breaking.h"
 #include "tests/kernel/solver_lab.h"
@@ -17,12 +17,14 @@ struct Line {
     std::vector<RigidBody> bodies;
     std::vector<gpu::BreakableBody> breakable;
     std::vector<gpu::ContactMemory> memory;
+    std::vector<std::array<uint32_t, 2>> pieces; // of each contact
     double duration = 1.0 / 60, gravity = 0;
     std::array<uint32_t, 4> room = {256, 100'000, 1 << 20, 512}; // bodies, triangles, sites of a step; fragments of a body
     uint32_t most_pairs = NO_INDEX, most_contacts = NO_INDEX;
 
     uint32_t add(double speed, double mass, bool breaks) {
         RigidBody body;
+        body.shape.pieces = {static_cast<uint32_t>(bodies.size()), 1, 0, 0};
         const double inertia = 0.4 * mass * kRadius * kRadius;
         body.state.offset = wordsOf(Vector(0, 0, 0), mass > 0 ? 1 / mass : 0);
         body.state.turn = wordsOf(Quaternion::Identity());
@@ -42,16 +44,17 @@ struct Line {
         breakable.push_back(b);
         return static_cast<uint32_t>(bodies.size() - 1);
     }
-    // B is on the right of A, a gap away.
-    uint32_t touch(uint32_t a, uint32_t b, double gap) {
+    // B is on the right of A, a gap away; or one of its pieces is, and faces A at an angle.
+    uint32_t touch(uint32_t a, uint32_t b, double gap, uint32_t piece_b = 0, double angle = 0) {
         gpu::ContactMemory m{};
         m.ids = {a, b, 1, 0};
-        m.normal = {1, 0, 0, 0};
+        m.normal = wordsOf(Vector(std::cos(angle), std::sin(angle), 0));
         m.turn_a = m.turn_b = wordsOf(Quaternion::Identity());
         m.anchor_a[0] = m.arm_a[0] = wordsOf(Vector(kRadius, 0, 0));
         m.anchor_b[0] = m.arm_b[0] = wordsOf(Vector(-kRadius, 0, 0));
         m.arm_a[0].w = static_cast<float>(gap);
         memory.push_back(m);
+        pieces.push_back({bodies[a].shape.pieces.x, bodies[b].shape.pieces.x + piece_b});
         return static_cast<uint32_t>(memory.size() - 1);
     }
 };
@@ -70,12 +73,13 @@ Outcome judge(const Line& line) {
     Counts counts, event;
     counts[COUNT_BOX_PAIRS] = counts[COUNT_STRUCK] = pairs;
     counts[COUNT_BODIES] = count;
-    const engine::Buffer memory = bufferOf(line.memory), states = bufferOf(statesOf(line.bodies)),
+    const engine::Buffer memory = bufferOf(line.memory), pieces = bufferOf(line.pieces), states = bufferOf(statesOf(line.bodies)),
                          shapes = bufferOf(shapesOf(line.bodies)), solver_bodies = bufferOf(solverBodiesOf(line.bodies)),
                          touches = bufferOf(std::vector<uint32_t>(pairs, 1)), breakable = bufferOf(line.breakable),
                          cards = bufferOf(std::vector{brittle::cardOf(*brittle::findMaterial("glass"))}),
                          steps = bufferOf(std::vector<uint32_t>{60, 0, 0, 0}), blows = blankBuffer<gpu::BlowRecord>(pairs),
-                         turning = blankBuffer<gpu::TurningBlow>(pairs), hardest = bufferOf(std::vector<uint32_t>(count, 0)),
+                         turning = blankBuffer<gpu::TurningBlow>(pairs),
+                         soonest = bufferOf(std::vector<uint32_t>(count, NO_INDEX)), hardest = bufferOf(std::vector<uint32_t>(count, 0)),
                          chosen = bufferOf(std::vector<uint32_t>(count, NO_INDEX)),
                          shares = bufferOf(std::vector<uint32_t>(2 * count, std::bit_cast<uint32_t>(1.0f))),
                          breaking = blankBuffer<gpu::BreakingRecord>(MOST_BREAKING),
@@ -96,7 +100,12 @@ Outcome judge(const Line& line) {
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(
             kernel("find_blows"), pairs, find,
-            {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, hardest, turning, shapes});
+            {counts.words, memory, states, solver_bodies, touches, breakable, cards, steps, blows, turning, shapes});
+        const auto duration = static_cast<float>(line.duration);
+        commands.dispatch(kernel("drop_blows"), pairs, duration,
+                          {counts.words, pieces, memory, states, shapes, breakable, blows, soonest});
+        commands.dispatch(kernel("rank_blows"), pairs, duration,
+                          {counts.words, memory, states, breakable, soonest, blows, hardest});
         commands.dispatch(kernel("choose_blows"), pairs, engine::NoPush{}, {counts.words, memory, blows, hardest, chosen});
         commands.dispatch(kernel("hold_blows"), pairs, engine::NoPush{},
                           {counts.words, memory, states, blows, chosen, touches, shares});
@@ -135,6 +144,44 @@ TEST(Blows, AreThoseOfBodiesThatMeetBeforeTheSolverHasASay) {
         line.touch(a, wall, gap);
         EXPECT_EQ(judge(line).blows[0].sides.x != 0, gap < 9 * (1.0 / 60 + 1.05 / 240)) << gap;
     }
+}
+
+// What lies behind a piece would be met if that were not there.
+TEST(Blows, OfABodyOfManyPiecesAreAtThePieceThatIsMetFirst) {
+    for (const double first_angle : {0.0, 0.5, 1.4}) {
+        Line line;
+        const uint32_t a = line.add(9, 3, true), wall = line.add(0, 0, false);
+        line.bodies[wall].shape.pieces = {1, 3, 0, 0};
+        line.touch(a, wall, 0.01 * std::cos(first_angle), 0, first_angle);
+        line.touch(a, wall, 0.08, 1);
+        line.touch(a, wall, 0.01001, 2);
+        const Outcome out = judge(line);
+        EXPECT_EQ(out.blows[1].sides.x, 0u) << "long after the first";
+        EXPECT_EQ(out.blows[2].sides.x, uint32_t{BREAKS_A}) << "together with the first";
+    }
+}
+
+TEST(Blows, ComeFromThatWhichMeetsABodyFirst) {
+    Line line;
+    const uint32_t a = line.add(20, 3, false), vase = line.add(0, 3, true), b = line.add(-9, 3, false);
+    line.touch(a, vase, 0.1);
+    line.touch(vase, b, 0.04);
+    const Outcome out = judge(line);
+    EXPECT_NE(out.blows[0].sides.x, 0u);
+    EXPECT_EQ(out.blows[0].sides.z, 0u) << "harder, and later";
+    EXPECT_EQ(out.blows[1].sides.z, 1u);
+    ASSERT_EQ(out.broken.size(), 1u);
+    EXPECT_EQ(out.broken[0].ids.y, b);
+}
+
+// A foot that it stands on, for one.
+TEST(Blows, OfABodyOfManyPiecesAreNotStoppedByWhatTouchesAndHardlyComesCloser) {
+    Line line;
+    const uint32_t a = line.add(9, 3, true), wall = line.add(0, 0, false);
+    line.bodies[wall].shape.pieces = {1, 2, 0, 0};
+    line.touch(a, wall, 0, 0, 1.5);
+    line.touch(a, wall, 0.08, 1);
+    EXPECT_EQ(judge(line).blows[1].sides.x, uint32_t{BREAKS_A});
 }
 
 TEST(Blows, OfAFallingBodyDoNotDependOnTheStep) {

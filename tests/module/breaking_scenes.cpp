@@ -3,6 +3,7 @@
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/dynamics/scene_settings.h"
+#include "modules/brittle/fracture/fracture.h"
 #include "tests/engine/test_device.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,13 @@ SceneDescription sceneOf(std::vector<BodyDescription> bodies, bool floor) {
 }
 
 std::unique_ptr<brittle::World> worldOf(const SceneDescription& scene, const brittle::WorldBudget& budget) {
-    const auto contents = brittle::contentsOf(scene, {}, nullptr);
+    std::unique_ptr<brittle::Fracture> fracture; // of bodies of many pieces
+    if (brittle::needsFracture(scene)) {
+        auto made = brittle::Fracture::create(engine_test::device());
+        EXPECT_TRUE(made) << made.error().message;
+        fracture = std::move(*made);
+    }
+    const auto contents = brittle::contentsOf(scene, {}, fracture.get());
     EXPECT_TRUE(contents) << contents.error().message;
     const auto settings = brittle::settingsOf(scene);
     EXPECT_TRUE(settings);

@@ -208,7 +208,7 @@ SceneDescription hail() {
     SceneDescription scene = sceneOf({});
     scene.effects.push_back("refracture");
     scene.budgets.most_fragments = 6;
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < 8; ++k) {
         BodyDescription body;
         body.shape.size = {0.15, 0.15, 0.15};
         body.material = "ice";
@@ -225,7 +225,7 @@ TEST(BreakingWorld, EveryCrackIsPaidForByThePairHoweverManyOthersHitIt) {
     const SceneDescription scene = hail();
     const auto world = worldOf(scene, brittle::budgetOf(scene, 0));
     uint32_t paid = 0, too_dear = 0;
-    for (uint32_t k = 0; k < 60; ++k) {
+    for (uint32_t k = 0; k < 90; ++k) {
         step(*world);
         const auto told = world->breaks();
         ASSERT_TRUE(told);

@@ -60,15 +60,17 @@ public:
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("blows");
         s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
-        s.record.commands().fill(p_.chosen, NO_INDEX);
+        for (const BufferView& least : {p_.soonest, p_.chosen})
+            s.record.commands().fill(least, NO_INDEX);
         const MeetingPush meeting = meetingPush(s);
         s.record.run("find_blows", Length::counted(COUNT_BOX_PAIRS), meeting,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
-                      s.b.steps, p_.blows, p_.hardest, p_.turning, s.b.shapes});
+                      s.b.steps, p_.blows, p_.turning, s.b.shapes});
         if (auto recorded = recordTurning(s, l_, p_); !recorded) return recorded;
         if (struck) strikes_->recordRaising(s, p_);
         const uint32_t publish[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
         s.record.runGroups("publish_if", 1, publish, {world, s.record.args()});
+        recordOrder(s);
         s.record.run("choose_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
                      {world, s.now.contacts, p_.blows, p_.hardest, p_.chosen});
         s.record.run("hold_blows", Length::counted(COUNT_STRUCK), engine::NoPush{},
@@ -164,6 +166,16 @@ public:
     }
 
 private:
+    // What comes first to each body.
+    void recordOrder(const Step& s) const {
+        const auto& world = s.record.counts();
+        const auto duration = static_cast<float>(s.settings.dt);
+        s.record.run("drop_blows", Length::counted(COUNT_STRUCK), duration,
+                     {world, s.now.pairs, s.now.contacts, s.b.bodies, s.b.shapes, l_.breakable, p_.blows, p_.soonest});
+        s.record.run("rank_blows", Length::counted(COUNT_STRUCK), duration,
+                     {world, s.now.contacts, s.b.bodies, l_.breakable, p_.soonest, p_.blows, p_.hardest});
+    }
+
     GatherRoom gatherRoomFor() const { return roomFor(room_.step_bodies, room_.step_triangles); }
 
     // Who is asked for what, object by object.
@@ -276,8 +288,8 @@ private:
 
     Error tooLarge(uint64_t bytes) const {
         return {ErrorCode::Capacity,
-                "what breaks in a step needs a list of " + std::to_string(bytes >> 20) + " MiB, the device can bind " +
-                    std::to_string(device_.limits().maxStorageBufferRange >> 20) + "; use smaller budgets for breaking"};
+                "needs a list of " + std::to_string(bytes >> 20) + " MiB, the device can bind " +
+                    std::to_string(device_.limits().maxStorageBufferRange >> 20)};
     }
 
     Result<void> fill(const WorldContents& contents) {
@@ -317,7 +329,10 @@ private:
 Result<std::unique_ptr<Breaking>> Breaking::create(Device& device, const WorldContents& contents, const RoomToBreak& room,
                                                    const StepSettings& settings, const WorldSizes& world, uint32_t group_size) {
     auto breaking = std::make_unique<DeviceBreaking>(device, room, settings);
-    if (auto made = breaking->make(contents, world.pairs, group_size); !made) return made.error();
+    const auto made = breaking->make(contents, world.pairs, group_size);
+    if (!made && made.error().code == ErrorCode::Capacity)
+        return Error{ErrorCode::Capacity, "room for what breaks: " + made.error().message + "; use smaller budgets for breaking"};
+    if (!made) return made.error();
     return std::unique_ptr<Breaking>(std::move(breaking));
 }
 

@@ -26,6 +26,7 @@ constexpr ViewName<L> kLasting[] = {{&L::breakable, "breakable"},
 
 using P = PassingBuffers;
 constexpr ViewName<P> kPassing[] = {{&P::blows, "blows"},
+                                    {&P::soonest, "first blows"},
                                     {&P::hardest, "hardest blows"},
                                     {&P::chosen, "chosen blows"},
                                     {&P::breaking, "breaking"},
@@ -100,6 +101,7 @@ PassingBuffers layOutPassing(ScratchArena& arena, const BreakingSizes& n) {
     const auto words = [&](uint64_t count) { return arena.take(4 * std::max<uint64_t>(count, 4)); };
     PassingBuffers p;
     p.blows = arena.take(n.pairs * sizeof(gpu::BlowRecord));
+    p.soonest = words(n.bodies);
     p.hardest = words(n.bodies);
     p.chosen = words(n.bodies);
     p.breaking = arena.take(MOST_BREAKING * sizeof(gpu::BreakingRecord));

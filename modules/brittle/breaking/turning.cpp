@@ -42,7 +42,7 @@ engine::Result<void> recordTurning(const Step& s, const LastingBuffers& l, const
     } push = {meetingPush(s), static_cast<float>(s.settings.margin)};
     s.record.run("judge_turning", kTurning, push,
                  {s.record.counts(), p.turning, s.b.step.manifolds, s.b.bodies, s.b.shapes, s.b.step.solver_bodies, l.breakable,
-                  l.cards, s.b.steps, p.blows, p.hardest, s.now.contacts, s.b.step.touches});
+                  l.cards, s.b.steps, p.blows, s.now.contacts, s.b.step.touches});
     return {};
 }
 
