@@ -214,19 +214,19 @@ BRITTLE_API BrittleResult brittleDestroyMesh(BrittleContext* context, BrittleMes
 typedef struct BrittleMaterialDef {
     uint32_t struct_size;
     const char* like;        /* "glass" by default */
-    double density;          /* kg/m3, 1e-6 to 1e6 */
-    double youngs_modulus;   /* Pa */
-    double poisson_ratio;    /* less than 0.5 */
-    double fracture_energy;  /* J/m2 of crack */
-    double tensile_strength; /* Pa, which 37 of 100 bodies of the reference volume have */
-    double weibull_modulus;  /* at least 1: how alike bodies are */
-    double reference_volume; /* m3 */
+    double density;          /* kg/m3, 1e-3 to 1e6 */
+    double youngs_modulus;   /* Pa, 1 to 1e13 */
+    double poisson_ratio;    /* up to 0.499 */
+    double fracture_energy;  /* J/m2 of crack, 1e-6 to 1e9 */
+    double tensile_strength; /* Pa, which 37 of 100 bodies of the reference volume have, 1 to 1e13 */
+    double weibull_modulus;  /* 1 to 1000: how alike bodies are */
+    double reference_volume; /* m3, 1e-12 to 1e6 */
     double eta;              /* up to 1: the share of a blow's energy that goes into cracks */
-    double smallest_cell;    /* m */
+    double smallest_cell;    /* m, up to 1000 */
 } BrittleMaterialDef;
 
 BRITTLE_API BrittleMaterialDef brittleDefaultMaterialDef(void);
-/* Errors: BAD_VALUE, for a name that is none (with the nearest there is) and numbers out of range. */
+/* Errors: BAD_VALUE, for a name that is none (the message has those that there are) and numbers out of range. */
 BRITTLE_API BrittleResult brittleCreateMaterial(BrittleContext* context, const BrittleMaterialDef* def,
                                                 BrittleMaterial* material);
 /* The built-in one of that name, as a material of this context like any other. Errors: BAD_VALUE. */
@@ -564,7 +564,8 @@ BRITTLE_API BrittleResult brittleGetSurfaces(BrittleContext* context, BrittleWor
  * NULL nothing else is written. Errors: BUFFER_TOO_SMALL. */
 BRITTLE_API BrittleResult brittleSaveState(BrittleContext* context, BrittleWorld world, void* bytes, size_t capacity,
                                            size_t* size);
-/* [queue] Into a world that was made of the same definitions in the same order; blows that wait for a step and events not yet
+/* [queue] Into a world that was made of the same definitions in the same order, which is for the host to see to: worlds of other
+ * sizes and lists are refused, but not such that differ in numbers only, as in gravity or a seed. Blows that wait for a step and events not yet
  * told are forgotten. What follows is, bit for bit, what followed then. Errors: BAD_STATE, CAPACITY. */
 BRITTLE_API BrittleResult brittleRestoreState(BrittleContext* context, BrittleWorld world, const void* bytes, size_t size);
 /* [queue] Of the motion of all bodies: equal for equal histories on one device. */

@@ -24,6 +24,7 @@ constexpr double kFrame = 1.0 / 60; // s
 constexpr const char* kShotScene = "hard_10_wall_300";
 constexpr uint32_t kWindowFragments = 256; // room for them, which there are more of than a pane becomes
 constexpr uint32_t kFine = 64;             // times shorter steps
+constexpr uint32_t kFewestRounds = 2;      // the least that tell how far a time can be trusted
 
 struct DynamicsWorkload {
     const char *name, *quick_scene, *full_scene, *what;
@@ -163,9 +164,10 @@ public:
         for (const DynamicsSetting& setting : dynamicsSettings())
             if ((setting.scenes & workload_.scene) != 0)
                 if (auto added = addCandidate(setting); !added) return added;
-        const uint32_t rounds = sweep_.options.is_quick ? 3 : 5;
-        for (uint32_t round = 0; round < rounds; ++round)
-            if (auto done = runRound(round, rounds); !done) return done;
+        uint32_t round = 0;
+        for (; round < sweep_.options.sceneRounds() && !(round >= kFewestRounds && sweep_.isLate()); ++round)
+            if (auto done = runRound(round); !done) return done;
+        sweep_.results.machine.scene_rounds = std::min(sweep_.results.machine.scene_rounds, round);
         for (Candidate& candidate : candidates_) {
             candidate.measurement.ms = samplesOf(std::move(candidate.ms));
             if (candidate.measurement.failed.empty()) candidate.measurement.errors = candidate.truth->errors();
@@ -244,7 +246,7 @@ private:
         return candidate.world->step(2);
     }
 
-    Result<void> runRound(uint32_t round, uint32_t rounds) {
+    Result<void> runRound(uint32_t round) {
         for (Candidate& candidate : candidates_) {
             if (!candidate.measurement.failed.empty()) continue;
             candidate.round_ms = 0;
@@ -254,7 +256,7 @@ private:
         }
         size_t turn = round;
         for (uint32_t frame = 0; frame < frames_; frame += workload_.block) {
-            const double done = (round + double(frame) / frames_) / rounds;
+            const double done = (round + double(frame) / frames_) / sweep_.options.sceneRounds();
             sweep_.progress.show(workload_.name, before_ + workload_.share * done);
             for (size_t k = 0; k < candidates_.size(); ++k) { // another one begins each turn
                 Candidate& candidate = candidates_[(k + turn) % candidates_.size()];

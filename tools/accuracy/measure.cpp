@@ -45,6 +45,7 @@ Result<Results> measureAll(engine::Device& device, const Options& options) {
     results.machine = describeMachine(device);
     results.machine.is_quick = options.is_quick;
     results.machine.rounds = options.rounds();
+    results.machine.scene_rounds = options.sceneRounds();
     for (const Part& part : kParts) {
         progress.begin(part.name, part.share);
         const double begun = progress.seconds();

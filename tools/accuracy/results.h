@@ -30,7 +30,7 @@ struct Machine {
     double load_before = 0;                    // of the last minute, by all programs, when it began
     double seconds = 0, processor_seconds = 0; // that all of it took, this program's share of the processors
     bool is_quick = false;
-    uint32_t rounds = 0; // of fracture, where there were fewest
+    uint32_t rounds = 0, scene_rounds = 0; // of fracture and of scenes, where there were fewest
 };
 
 struct ErrorKind {

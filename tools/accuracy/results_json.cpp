@@ -13,7 +13,7 @@ namespace accuracy {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Samples, raw, median, low, high)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, processor, system, device, driver, compiler, brittle, commit, date, cores,
-                                   memory_gib, load_before, seconds, processor_seconds, is_quick, rounds)
+                                   memory_gib, load_before, seconds, processor_seconds, is_quick, rounds, scene_rounds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorKind, name, label, unit, reference)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeasuredError, kind, value, resolution)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Workload, name, family, what, time_of, bytes_of, kinds)

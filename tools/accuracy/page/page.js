@@ -187,7 +187,8 @@ function showMachine() {
     ["How long", [number("/machine/seconds"), " s, ", number("/machine/processor_seconds"), " s of processors: ",
                   results.parts.map((part, k) => [k > 0 ? ", " : "", words(`/parts/${k}/part`), " ", number(`/parts/${k}/seconds`),
                                                   " s"]).flat()]],
-    ["Rounds", [number("/machine/rounds"), " of fracture at least, all settings in turn in each"]],
+    ["Rounds", [number("/machine/rounds"), " of fracture and ", number("/machine/scene_rounds"),
+                " of scenes at least, all settings in turn in each"]],
   ];
   section("machine").append(make("table", {}, make("tbody", {}, rows.map(([name, value]) =>
       make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, value))))));
