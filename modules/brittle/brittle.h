@@ -270,19 +270,19 @@ typedef struct BrittleBudget {
 typedef struct BrittleWorldDef {
     uint32_t struct_size;
     uint32_t effects; /* BRITTLE_EFFECT_... */
-    BrittleVec3 gravity;
-    double dt;             /* s, of a step: 1e-5 to 1 */
+    BrittleVec3 gravity;   /* m/s2, each within 1e4 */
+    double dt;             /* s, of a step: 1e-6 to 0.5 */
     uint32_t substeps;     /* of the solver, 1 to 64 */
     uint32_t iterations;   /* in each, 1 to 64 */
     uint64_t seed;         /* of how things break */
-    double smallest_piece; /* m: cells of less than the volume of such a cube are no bodies */
-    double dust_lifetime;  /* s */
-    double debris_below;   /* m: fragments of less than the volume of such a cube fade, */
-    double debris_after;   /* s after they have come to rest, */
-    double debris_fade;    /* for so many s */
+    double smallest_piece; /* m, up to 100: cells of less than the volume of such a cube are no bodies */
+    double dust_lifetime;  /* s, up to 1e6 */
+    double debris_below;   /* m, up to 1e3: fragments of less than the volume of such a cube fade, */
+    double debris_after;   /* s, up to 1e6, after they have come to rest, */
+    double debris_fade;    /* for so many s, up to 1e6 */
     double impact_speed;   /* m/s: what meets more slowly is no impact to tell of; 1e-3 to 1e4 */
-    double air_density;    /* kg/m3 */
-    double drag_coefficient;
+    double air_density;    /* kg/m3, up to 1e4 */
+    double drag_coefficient; /* up to 100 */
     BrittleBudget budget;
     uint32_t has_surfaces; /* 1: it can be drawn (brittleGetDrawBuffers, brittleGetSurface); 0 saves the memory for that */
 } BrittleWorldDef;

@@ -108,4 +108,16 @@ TEST_F(AutoCli, RefusesWhatCannotBeHad) {
     EXPECT_EQ(run({"shatter", "builtin:cube", "-o", path("a.glb"), "--tolerance", "-1"}).exit_code, 2);
 }
 
+// It would say that it took one thing, and take the other.
+TEST_F(AutoCli, ShatterRefusesToPickWhatIsGiven) {
+    storePrices();
+    for (const auto& [knob, value] :
+         {std::pair{"--precision", "fast"}, {"--caps", "convex"}, {"--search", "linear"}, {"--cells", "edges"}}) {
+        const Outcome out = run({"shatter", "builtin:cube", "-o", path("a.glb"), knob, value, "--tolerance", "1"});
+        EXPECT_EQ(out.exit_code, 2);
+        EXPECT_NE(out.err.find(std::string(knob) + " excludes --tolerance"), std::string::npos) << out.err;
+        EXPECT_FALSE(std::filesystem::exists(path("a.glb")));
+    }
+}
+
 } // namespace

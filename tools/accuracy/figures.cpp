@@ -132,9 +132,9 @@ Result<void> measureFigures(Sweep& sweep) {
     FigureRun run(sweep, *model, **fracture);
     const std::string what = "A whole break of an icosphere of 42 vertices, on the device. Concentrated: hit at a point of the "
                              "surface, by the pattern impact, most sites within three tenths of the radius.";
-    if (auto few = run.draw(kFew, {"few_sites", "Time against the number of sites, up to 100", what, false, {}}, 0, .3); !few)
+    if (auto few = run.draw(kFew, {"few_sites", "Time against the number of sites, few", what, false, {}}, 0, .3); !few)
         return few;
-    return run.draw(kMany, {"many_sites", "Time against the number of sites, up to 100,000", what, true, {}}, .3, .7);
+    return run.draw(kMany, {"many_sites", "Time against the number of sites, many", what, true, {}}, .3, .7);
 }
 
 } // namespace accuracy

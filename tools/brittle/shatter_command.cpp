@@ -259,6 +259,9 @@ void addShatter(CLI::App& app, int& exit_code) {
         ->transform(oneOf(kPrecisions))
         ->option_text("NAME [exact]");
     addAutoOptions(*command, options->wish, "the break", accuracy::kFractureFamily.error);
+    for (const char* wish : {"--budget-ms", "--tolerance"}) // they pick these
+        for (const char* picked : {"--precision", "--caps", "--search", "--cells"})
+            command->get_option(wish)->excludes(command->get_option(picked));
     CLI::Option* collider =
         command
             ->add_option(
