@@ -30,19 +30,6 @@ bool instanceHas(PFN_vkGetInstanceProcAddr get, const char* extension) {
     return std::ranges::any_of(properties, [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
 }
 
-// At exit the leak checker names who leaked, and cannot once the drivers have been unloaded: one instance keeps them.
-void keepDriversForLeakChecker([[maybe_unused]] PFN_vkCreateInstance create,
-                               [[maybe_unused]] const VkInstanceCreateInfo& info) {
-#ifdef __SANITIZE_ADDRESS__
-    static VkInstance kept = [&] {
-        VkInstance instance = VK_NULL_HANDLE;
-        create(&info, nullptr, &instance);
-        return instance;
-    }();
-    static_cast<void>(kept);
-#endif
-}
-
 } // namespace
 
 uint32_t validationMessageTotal() { return total_messages; }
@@ -70,7 +57,6 @@ Result<std::unique_ptr<Instance>> Instance::create() {
         const std::lock_guard lock(loaderMutex());
         const VkResult made = create(&info, nullptr, &instance->handle_);
         if (made != VK_SUCCESS) return vulkanError("cannot create a Vulkan instance", made);
-        keepDriversForLeakChecker(create, info);
     }
     instance->get_ = get;
     instance->vk_ = loadInstanceFunctions(instance->handle_, get);

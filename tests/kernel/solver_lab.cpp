@@ -13,7 +13,9 @@ Vector Chance::direction() {
 
 Quaternion Chance::turn() {
     for (;;) {
-        const Eigen::Vector4d v(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1));
+        Eigen::Vector4d v;
+        for (const int k : {3, 2, 1, 0})
+            v[k] = between(-1, 1);
         if (v.norm() > 0.1 && v.norm() < 1) return Quaternion(v.normalized());
     }
 }
@@ -40,7 +42,8 @@ Vector RigidBody::place() const {
 
 RigidBody randomBody(Chance& chance, bool moves) {
     RigidBody body;
-    body.state.offset = wordsOf(chance.inBox(3), moves ? 1 / chance.between(0.5, 40) : 0);
+    const double inverse_mass = moves ? 1 / chance.between(0.5, 40) : 0;
+    body.state.offset = wordsOf(chance.inBox(3), inverse_mass);
     body.state.turn = wordsOf(chance.turn());
     body.shape.inverse_inertia[0].w = static_cast<float>(chance.between(0.1, 1.5));
     body.shape.inverse_inertia[1].w = static_cast<float>(chance.between(0, 1));

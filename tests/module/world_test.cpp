@@ -140,7 +140,7 @@ TEST(World, IsTheSameBitForBitInWhateverOrderBodiesAreAdded) {
     const auto first = heapOf(order);
     run(*first, 90);
     std::ranges::reverse(order);
-    std::ranges::rotate(order, order.begin() + 11);
+    std::rotate(order.begin(), order.begin() + 11, order.end());
     const auto other = heapOf(order);
     run(*other, 90);
     EXPECT_EQ(hashOf(*other), hashOf(*first));

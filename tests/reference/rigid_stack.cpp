@@ -27,8 +27,8 @@ Face inWorld(const StackedBox& box, Face face) {
 }
 
 Outline outlineOf(const Face& face) {
-    const auto [low_x, high_x] = std::ranges::minmax({face[0][0], face[1][0], face[2][0], face[3][0]});
-    const auto [low_z, high_z] = std::ranges::minmax({face[0][2], face[1][2], face[2][2], face[3][2]});
+    const auto [low_x, high_x] = std::minmax({face[0][0], face[1][0], face[2][0], face[3][0]});
+    const auto [low_z, high_z] = std::minmax({face[0][2], face[1][2], face[2][2], face[3][2]});
     return {low_x, high_x, low_z, high_z};
 }
 

@@ -26,7 +26,8 @@ double furthestPlace(const EventGrid& g, const Int3& from) {
 PlacePush placePush(const Event& e, const Placement& from) {
     const EventGrid& g = e.grid;
     const Impact& impact = from.options.impact;
-    const Int3 place = snapToGrid(g, impact.place - from.mesh.center);
+    const bool has_impact = from.options.pattern != Pattern::Uniform; // of an even one whatever place is told may lie anywhere
+    const Int3 place = snapToGrid(g, has_impact ? impact.place - from.mesh.center : Double3{});
     const double furthest = furthestPlace(g, place);
     const double radius = std::clamp(impact.contact_radius * static_cast<double>(g.scale), 1.0, furthest);
     return {withLast(g.mesh_low, from.columns.edge),

@@ -18,4 +18,7 @@ struct IsolationLimits {
 // What `work` returned, bytes and all. The child shares nothing with its parent afterwards and must not touch a device.
 engine::Result<std::string> runIsolated(const std::function<std::string()>& work, const IsolationLimits& limits = {});
 
+// False under the address sanitizer, which reserves terabytes of addresses for itself.
+bool isolationLimitsMemory();
+
 } // namespace brittle
