@@ -115,8 +115,8 @@ void setIndexed(void* at, int64_t index, const void* element, uint8_t* is_valid,
         complain("an element is set outside of an array");
 }
 
-template <size_t kElement>
-void* elementAt(const void* array, int64_t index) {
+template <size_t kElement, class Element = void, class Array = void>
+Element* elementAt(Array* array, int64_t index) {
     const auto& packed = *static_cast<const NativePacked*>(array);
     if (!isTracked(packed.bytes) || packed.element != kElement) {
         complain("what is indexed as a packed array is none of that type");
@@ -126,7 +126,7 @@ void* elementAt(const void* array, int64_t index) {
         complain("a packed array is indexed outside of it");
         return nullptr;
     }
-    return packed.bytes->data() + static_cast<size_t>(index) * kElement;
+    return reinterpret_cast<Element*>(packed.bytes->data() + static_cast<size_t>(index) * kElement);
 }
 
 // The info is read now; what it says is released goes when the last Callable does.
@@ -167,18 +167,18 @@ AnyFunction valueFunction(const std::string& name) {
         {"get_variant_to_type_constructor", any(toTypeConstructor)},
         {"variant_get_ptr_internal_getter", any(internalGetter)},
         {"variant_get_ptr_destructor", any(destructorOf)},
-        {"packed_byte_array_operator_index", any(elementAt<1>)},
-        {"packed_byte_array_operator_index_const", any(elementAt<1>)},
-        {"packed_int32_array_operator_index", any(elementAt<4>)},
-        {"packed_int32_array_operator_index_const", any(elementAt<4>)},
-        {"packed_float32_array_operator_index", any(elementAt<4>)},
-        {"packed_float32_array_operator_index_const", any(elementAt<4>)},
-        {"packed_int64_array_operator_index", any(elementAt<8>)},
-        {"packed_int64_array_operator_index_const", any(elementAt<8>)},
+        {"packed_byte_array_operator_index", any(elementAt<1, uint8_t>)},
+        {"packed_byte_array_operator_index_const", any(elementAt<1, const uint8_t, const void>)},
+        {"packed_int32_array_operator_index", any(elementAt<4, int32_t>)},
+        {"packed_int32_array_operator_index_const", any(elementAt<4, const int32_t, const void>)},
+        {"packed_float32_array_operator_index", any(elementAt<4, float>)},
+        {"packed_float32_array_operator_index_const", any(elementAt<4, const float, const void>)},
+        {"packed_int64_array_operator_index", any(elementAt<8, int64_t>)},
+        {"packed_int64_array_operator_index_const", any(elementAt<8, const int64_t, const void>)},
         {"packed_vector2_array_operator_index", any(elementAt<8>)},
-        {"packed_vector2_array_operator_index_const", any(elementAt<8>)},
+        {"packed_vector2_array_operator_index_const", any(elementAt<8, void, const void>)},
         {"packed_vector3_array_operator_index", any(elementAt<12>)},
-        {"packed_vector3_array_operator_index_const", any(elementAt<12>)},
+        {"packed_vector3_array_operator_index_const", any(elementAt<12, void, const void>)},
         {"callable_custom_create2", any(createCallable)}};
     for (const auto& [known, function] : functions)
         if (name == known) return function;
