@@ -53,7 +53,6 @@ TEST(Dust, MassOfCellsThatAreNoBodiesIsTold) {
 }
 
 TEST(Dust, CellsThatAreNoBodiesAskForNoRoom) {
-    brittle::WorldBudget budget;
     const auto world = worldOf(withSmallest(shot(), kSome));
     const auto before = countsOf(*world).in_use;
     const auto events = firstBreaks(*world);
