@@ -77,9 +77,9 @@ bool drawCandidate(uint candidate, BreakingRecord object, Ranges r, ivec3 corner
 bool drawAsPaper(uint site, BreakingRecord object, Ranges r, ivec3 corner, out ivec3 p) {
     bool favors = takesNearest(site, object.sites.z), found = false;
     int64_t nearest = int64_t(0);
-    for (uint k = 0u; k < CANDIDATES && (favors || !found); k++) {
+    for (uint k = 0u; k < PAPER_CANDIDATES && (favors || !found); k++) {
         ivec3 candidate;
-        if (!drawCandidate(site * CANDIDATES + k, object, r, corner, candidate)) continue; // the same for all lanes
+        if (!drawCandidate(site * PAPER_CANDIDATES + k, object, r, corner, candidate)) continue; // the same for all lanes
         int64_t square = squaredLength(candidate - object.impact.xyz);
         bool takes = !found || isNegative(square - nearest);
         p = takes ? candidate : p;

@@ -1,13 +1,13 @@
-// Sites as the paper places them (lib/draw_paper.glsl): eight candidates a site, of which the one nearest to the impact is taken
-// with a probability that grows with its strength, else the first. 256 lanes make 32 sites. Random numbers are the paper's sine
-// hash (listing 1), in fixed point, so that all devices draw the same; candidates outside the solid are drawn again.
+// Sites as the paper places them (lib/draw_paper.glsl): some candidates a site, of which the one nearest to the impact is taken
+// with a probability that grows with its strength, else the first. A lane draws one candidate: of the paper's eight a group
+// makes 32 sites. Random numbers are the paper's sine hash (listing 1), in fixed point, so that all devices draw the same;
+// candidates outside the solid are drawn again.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/wide.glsl"
 
-#define SITES 32u
-layout(local_size_x = 256) in;
+layout(local_size_x = PAPER_LANES) in;
 UPDATES(0, uint, counts);
 READS(1, ivec4, grid_vertices);
 READS(2, uint, triangles);
@@ -18,7 +18,7 @@ UPDATES(6, uint, placed);
 #include "lib/place_in_mesh.glsl"
 #include "lib/draw_paper.glsl"
 
-shared ivec4 candidates[SITES * CANDIDATES]; // w: whether it lies inside
+shared ivec4 drawn[PAPER_LANES]; // w: whether it lies inside
 
 ivec3 drawPlace(uint candidate, uint attempt) {
     PaperKey key = keyOf(candidate, attempt);
@@ -36,15 +36,15 @@ void drawCandidate(uint lane, uint candidate, bool asked) {
         inside = insideSolid(p, true, budget);
         budget -= min(budget, 1u);
     }
-    candidates[lane] = ivec4(p, inside ? 1 : 0);
+    drawn[lane] = ivec4(p, inside ? 1 : 0);
 }
 
 // Negative where no candidate lies inside.
 int chosen(uint first, bool favors) {
     int best = -1;
     int64_t nearest = int64_t(0);
-    for (uint k = 0u; k < CANDIDATES; k++) {
-        ivec4 p = candidates[first + k];
+    for (uint k = 0u; k < candidates; k++) {
+        ivec4 p = drawn[first + k];
         ivec3 d = p.xyz - impact.xyz;
         int64_t square = squaredLength(d);
         bool takes = p.w != 0 && (best < 0 || (favors && isNegative(square - nearest)));
@@ -55,12 +55,14 @@ int chosen(uint first, bool favors) {
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x, first_site = flatGroup() * SITES, site = first_site + lane;
-    uint drawn_for = first_site + lane / CANDIDATES;
-    drawCandidate(lane, drawn_for * CANDIDATES + lane % CANDIDATES, drawn_for < site_count && placed[min(drawn_for, site_count - 1u)] == 0u);
+    uint sites = PAPER_LANES / candidates; // a group; where that leaves a rest, lanes draw for none
+    uint lane = gl_LocalInvocationID.x, first_site = flatGroup() * sites, site = first_site + lane;
+    uint of = lane / candidates, drawn_for = first_site + of;
+    bool asked = of < sites && drawn_for < site_count && placed[min(drawn_for, site_count - 1u)] == 0u;
+    drawCandidate(lane, drawn_for * candidates + lane % candidates, asked);
     barrier();
-    if (lane >= SITES || site >= site_count || placed[site] != 0u) return;
-    int best = chosen(lane * CANDIDATES, takesNearest(site, favor));
+    if (lane >= sites || site >= site_count || placed[site] != 0u) return;
+    int best = chosen(lane * candidates, takesNearest(site, favor));
     if (best < 0) return;
-    place(site, candidates[lane * CANDIDATES + uint(best)].xyz);
+    place(site, drawn[lane * candidates + uint(best)].xyz);
 }

@@ -2,8 +2,6 @@
 // the center of the box. Random numbers are those of lib/sine_hash.glsl, keyed by candidate and try. Wants lib/draw.glsl.
 #include "lib/sine_hash.glsl"
 
-#define CANDIDATES 8u /* a site, of which the one nearest to the impact is taken with a probability that grows with its strength */
-
 // On the way from a to b; `share` of 2^32.
 ivec3 between(ivec3 a, ivec3 b, uint share) {
     ivec3 d = b - a;

@@ -14,6 +14,7 @@ layout(push_constant) uniform Push {
     uint favor; // of 2^32: how often the candidate nearest to the impact is taken
     uint furthest; // place in the mesh, from the impact
     uint tallest;  // column: the most that lies between the lowest and the highest z of one
+    uint candidates; // a site, of the paper's pattern
 };
 #include "lib/draw.glsl"
 #include "lib/inside_solid.glsl"

@@ -141,6 +141,8 @@
 #define MOST_TREE_LEVELS 24u
 #define FEW_SITES 1024     /* that one workgroup sorts in shared memory, into as many bins */
 #define TRIES_A_ROUND 512u /* to place a site inside the mesh */
+#define PAPER_CANDIDATES 8   /* a site, of the paper's pattern: section 2 */
+#define PAPER_LANES 256      /* that draw candidates, each one: the most that a site may have */
 
 // Sides of a clipped polygon; one that outgrows the usual number has the event done again with the larger.
 #define USUAL_SIDES 24

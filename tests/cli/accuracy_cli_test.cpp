@@ -137,8 +137,8 @@ TEST_F(LongAccuracyCli, MeasuresEveryKnobAgainstReferences) {
     for (const json& workload : results["workloads"])
         families.insert(workload["family"].get<std::string>());
     EXPECT_EQ(families, (std::set<std::string>{"fracture", "colliders", "patterns", "dynamics"}));
-    for (const char* knob : {"precision", "caps", "search", "cells", "pattern", "relax", "directions", "axes", "ccd",
-                             "substeps", "iterations", "dt", "recycling", "precision and caps", "dt and substeps"})
+    for (const char* knob : {"precision", "caps", "search", "cells", "pattern", "candidates", "relax", "directions", "axes",
+                             "ccd", "substeps", "iterations", "dt", "recycling", "precision and caps", "dt and substeps"})
         EXPECT_TRUE(knobs.contains(knob)) << knob;
     EXPECT_EQ(results["figures"].size(), 2u);
     EXPECT_EQ(results["laws"].size(), 3u);

@@ -120,6 +120,49 @@ TEST(PaperPattern, InterpolatesEvenlyBetweenTheCenterAndTheSurface) {
     }
 }
 
+// How much of the way from the center to the surface of the unit cube, drawn evenly, lies within the radius.
+double shareWithin(double radius) {
+    constexpr int kSteps = 64;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j)
+            sum += std::min(1.0, radius / std::hypot(0.5, (i + 0.5) / kSteps - 0.5, (j + 0.5) / kSteps - 0.5));
+    return sum / (kSteps * kSteps);
+}
+
+// Of a hit in the center the nearest of n candidates lies within r as often as not all n lie outside of it.
+TEST(PaperPattern, TakesTheNearestOfAsManyCandidatesAsAreAskedFor) {
+    for (const uint32_t candidates : {1u, 3u, 8u, 100u, 256u}) {
+        brittle::FractureOptions options;
+        options.site_count = 2000;
+        options.pattern = Pattern::Paper;
+        options.impact.favor = 1;
+        options.impact.candidates = candidates;
+        const std::vector<Double3> sites = sitesOf("builtin:cube", options);
+        const double n = static_cast<double>(sites.size());
+        EXPECT_GT(n, 1900) << candidates;
+        for (const double radius : {0.002, 0.01, 0.05, 0.1, 0.2, 0.4}) {
+            const auto is_within = [radius](const Double3& s) { return distance(s, {0, 0, 0}) < radius; };
+            const double expected = 1 - std::pow(1 - shareWithin(radius), candidates);
+            EXPECT_NEAR(static_cast<double>(std::count_if(sites.begin(), sites.end(), is_within)) / n, expected,
+                        3.5 * std::sqrt(expected * (1 - expected) / n) + 1e-12)
+                << candidates << " candidates, radius " << radius;
+        }
+    }
+}
+
+TEST(PaperPattern, RefusesNoCandidatesAndMoreThanAGroupDraws) {
+    const whole::Model cube = whole::modelFrom("builtin:cube");
+    for (const uint32_t candidates : {0u, 257u}) {
+        brittle::FractureOptions options;
+        options.pattern = Pattern::Paper;
+        options.impact.candidates = candidates;
+        const auto broken = whole::fracture().shatter(cube.prepared.mesh, cube.prepared.topology, options);
+        ASSERT_FALSE(broken);
+        EXPECT_NE(broken.error().message.find("ask for 1 to 256"), std::string::npos) << broken.error().message;
+    }
+}
+
 TEST(Patterns, PlaceTheSameSitesEveryTimeAndOthersForAnotherSeed) {
     for (const Pattern pattern : {Pattern::Uniform, Pattern::Impact, Pattern::Paper}) {
         brittle::FractureOptions options;

@@ -1,7 +1,7 @@
 // Colliders: how much larger than their fragments they are, by how many directions.
 #include "modules/brittle/mesh/vector_math.h"
-#include "tests/support/fragment_file.h"
 #include "tests/reference/convex.h"
+#include "tests/support/fragment_file.h"
 #include "tools/accuracy/fracture_run.h"
 #include "tools/accuracy/fracture_truth.h"
 
@@ -115,7 +115,9 @@ Result<void> sweepColliders(Sweep& sweep) {
         before += one.share;
         const double diagonal = reference::boundsOf(support::trianglesOf(one.model.mesh)).diagonal();
         FractureMeasures measures;
-        measures.errors = [&](const brittle::FractureResult& r) { return colliderErrors(r.fragments, diagonal); };
+        measures.errors = [&](const brittle::FractureResult& r, const brittle::FractureOptions&) {
+            return colliderErrors(r.fragments, diagonal);
+        };
         measures.time = timeOfColliders;
         if (auto done = measureCase(sweep, one, measures); !done) return done;
     }

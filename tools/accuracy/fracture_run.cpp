@@ -102,7 +102,8 @@ private:
     void findErrors(Candidate& candidate, const FractureResult& result) {
         if (!default_ && measures_.prepare) measures_.prepare(result);
         const bool is_same = default_ && sameFragments(*default_, result) && candidate.options.collider == case_.base.collider;
-        candidate.measurement.errors = is_same ? candidates_.front().measurement.errors : measures_.errors(result);
+        candidate.measurement.errors =
+            is_same ? candidates_.front().measurement.errors : measures_.errors(result, candidate.options);
     }
 
     Result<void> runOnce(Candidate& candidate) const {

@@ -15,8 +15,8 @@ struct FractureCase {
     double share = 1, before = 0; // of the sweep's part, for its progress
 };
 
-// Of a result; asked for once a setting.
-using ErrorsOf = std::function<std::vector<MeasuredError>(const brittle::FractureResult&)>;
+// Of a result and what it was asked for by; called once a setting.
+using ErrorsOf = std::function<std::vector<MeasuredError>(const brittle::FractureResult&, const brittle::FractureOptions&)>;
 // Milliseconds of one run that count.
 using TimeOf = std::function<double(const brittle::FractureResult&)>;
 // Called with the default's result before errors are asked for.

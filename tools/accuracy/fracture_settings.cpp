@@ -61,10 +61,26 @@ constexpr FractureSetting kPatterns[] = {
      [](FractureOptions& o) { o.pattern = Pattern::Paper; }},
 };
 
+template <uint32_t Candidates>
+void asPaper(FractureOptions& o) {
+    o.pattern = Pattern::Paper;
+    o.impact.candidates = Candidates;
+}
+
+constexpr FractureSetting kCrowding[] = {
+    {"default", "impact", "Nothing: drawn by the law itself.", [](FractureOptions&) {}},
+    {"candidates", "paper, 1 a site", "The hit: sites lie as they would without one.", asPaper<1>},
+    {"candidates", "paper, 8 a site",
+     "The law of a hit: sites crowd about it no more than eight times as densely as without one.", asPaper<8>},
+    {"candidates", "paper, 64 a site", "The law of a hit, and all pieces but the smallest: hardly a site lies far from it.",
+     asPaper<64>},
+};
+
 } // namespace
 
 std::span<const FractureSetting> fractureSettings() { return kFracture; }
 std::span<const FractureSetting> colliderSettings() { return kColliders; }
 std::span<const FractureSetting> patternSettings() { return kPatterns; }
+std::span<const FractureSetting> crowdingSettings() { return kCrowding; }
 
 } // namespace accuracy

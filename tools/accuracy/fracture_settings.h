@@ -17,5 +17,6 @@ struct FractureSetting {
 std::span<const FractureSetting> fractureSettings();
 std::span<const FractureSetting> colliderSettings();
 std::span<const FractureSetting> patternSettings();
+std::span<const FractureSetting> crowdingSettings();
 
 } // namespace accuracy

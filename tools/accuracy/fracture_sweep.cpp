@@ -58,7 +58,7 @@ Result<void> measureOne(Sweep& sweep, FractureCase what, const std::string& firs
     FractureMeasures measures;
     const size_t index = sweep.results.workloads.size();
     measures.prepare = [&](const brittle::FractureResult& result) { truth = truthOf(what.model.mesh, result.sites); };
-    measures.errors = [&](const brittle::FractureResult& result) {
+    measures.errors = [&](const brittle::FractureResult& result, const brittle::FractureOptions&) {
         std::vector<MeasuredError> errors = errorsOf(truth, result);
         auto& known = sweep.results.workloads[index].kinds;
         if (known.empty()) known = kindsOf(errors, first);

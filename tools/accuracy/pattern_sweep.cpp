@@ -19,6 +19,10 @@ const ErrorKind kSizes = {"sizes",
                           "volumes of inner cells against those of even sites, largest difference of the distributions",
                           "share", "the gamma law that Ferenc and Neda (2007) found for three dimensions"};
 
+const ErrorKind kCrowding = {
+    "crowding", "distances of sites from the hit against those of a real one, largest difference of the distributions", "share",
+    "the fourth power of the distance, by which the density of a hit's cracks falls outside the contact"};
+
 constexpr double kNoticed = 1.358; // over the root of n: the distance that 95 of 100 samples of the law itself stay below
 constexpr double kContactRadius = 0.05, kHalf = 0.5, kInner = 0.35;
 constexpr size_t kBins = 24;
@@ -60,16 +64,21 @@ struct PatternLaw {
     Distribution law;
 };
 
-PatternLaw placesOf(const FractureResult& result, Pattern pattern) {
-    PatternLaw places = {{}, pattern == Pattern::Paper ? paperLaw : evenLaw};
-    if (pattern == Pattern::Impact) places.law = impactLaw;
+// Those that lie in the largest ball about the hit that the cube holds.
+PatternLaw distancesOf(const FractureResult& result) {
+    PatternLaw distances = {{}, impactLaw};
     for (const Double3& site : result.sites) {
         const double r = std::hypot(site[0], site[1], site[2]);
-        if (pattern != Pattern::Impact)
-            places.values.push_back(shareOfWay(site));
-        else if (r < kHalf)
-            places.values.push_back(r);
+        if (r < kHalf) distances.values.push_back(r);
     }
+    return distances;
+}
+
+PatternLaw placesOf(const FractureResult& result, Pattern pattern) {
+    if (pattern == Pattern::Impact) return distancesOf(result);
+    PatternLaw places = {{}, pattern == Pattern::Paper ? paperLaw : evenLaw};
+    for (const Double3& site : result.sites)
+        places.values.push_back(shareOfWay(site));
     return places;
 }
 
@@ -145,28 +154,51 @@ FractureCase patternCase(brittle::PreparedMesh model, bool is_quick) {
     one.base.site_count = is_quick ? 1000 : 5000;
     one.base.impact.contact_radius = kContactRadius;
     one.settings = patternSettings();
+    one.share = 0.5;
     return one;
 }
 
-} // namespace
+FractureCase crowdingCase(brittle::PreparedMesh model, bool is_quick) {
+    FractureCase one = patternCase(std::move(model), is_quick);
+    one.workload.name = "cube_hit";
+    one.workload.what = "The same cube under a blow so strong that it draws every site to it";
+    one.workload.kinds = {kCrowding.name};
+    one.base.pattern = Pattern::Impact;
+    one.base.impact.favor = 1;
+    one.settings = crowdingSettings();
+    one.before = one.share = 0.5;
+    return one;
+}
 
-Result<void> sweepPatterns(Sweep& sweep) {
-    addKind(sweep.results, kPlaces);
-    addKind(sweep.results, kSizes);
-    auto model = soundModel("builtin:cube");
-    if (!model) return model.error();
-    const FractureCase one = patternCase(std::move(*model), sweep.options.is_quick);
-    size_t asked = 0; // errors are asked for in the order of the settings
+Result<void> sweepPlaces(Sweep& sweep, const FractureCase& one) {
     FractureMeasures measures;
-    measures.errors = [&](const FractureResult& result) {
-        brittle::FractureOptions options = one.base;
-        one.settings[asked++].apply(options);
+    measures.errors = [&](const FractureResult& result, const brittle::FractureOptions& options) {
         addLaws(sweep.results, options.pattern, options.relax, result);
         std::vector<MeasuredError> errors = {errorOf(kPlaces, placesOf(result, options.pattern))};
         if (options.pattern == Pattern::Uniform) errors.push_back(errorOf(kSizes, sizesOf(result)));
         return errors;
     };
     return measureCase(sweep, one, measures);
+}
+
+Result<void> sweepCrowding(Sweep& sweep, const FractureCase& one) {
+    FractureMeasures measures;
+    measures.errors = [](const FractureResult& result, const brittle::FractureOptions&) {
+        return std::vector<MeasuredError>{errorOf(kCrowding, distancesOf(result))};
+    };
+    return measureCase(sweep, one, measures);
+}
+
+} // namespace
+
+Result<void> sweepPatterns(Sweep& sweep) {
+    for (const ErrorKind& kind : {kPlaces, kSizes, kCrowding})
+        addKind(sweep.results, kind);
+    auto model = soundModel("builtin:cube");
+    if (!model) return model.error();
+    const bool is_quick = sweep.options.is_quick;
+    if (auto done = sweepPlaces(sweep, patternCase(*model, is_quick)); !done) return done;
+    return sweepCrowding(sweep, crowdingCase(std::move(*model), is_quick));
 }
 
 } // namespace accuracy

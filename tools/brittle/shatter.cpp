@@ -185,7 +185,7 @@ engine::Result<void> Run::breakModel() {
     options.relax = options_.relax;
     options.collider = options_.collider;
     options.impact = {options_.at.value_or(model_->mesh.center), brittle::contactRadiusOf(options_.strength),
-                      brittle::favorOf(options_.strength)};
+                      brittle::favorOf(options_.strength), options_.candidates};
     auto fracture = brittle::Fracture::create(*device_, options_.group_size);
     if (!fracture) return fracture.error();
     auto result = options_.wish.isThere() ? breakAsWished(**fracture, options)

@@ -28,9 +28,10 @@ struct ShatterOptions {
     std::string picture;    // of the fragments, moved apart
     std::string collider_picture;
     brittle::Pattern pattern = brittle::Pattern::Uniform;
-    std::optional<brittle::Double3> at; // where it is hit; the center of its box if nowhere else
-    double strength = 1;                // joules
-    uint32_t relax = 0;                 // rounds of Lloyd's relaxation
+    std::optional<brittle::Double3> at;     // where it is hit; the center of its box if nowhere else
+    double strength = 1;                    // joules
+    uint32_t relax = 0;                     // rounds of Lloyd's relaxation
+    uint32_t candidates = PAPER_CANDIDATES; // a site, of the paper's pattern
     brittle::Search search = brittle::Search::Auto;
     brittle::Caps caps = brittle::Caps::Exact;
     brittle::CellMapping cells = brittle::CellMapping::Auto;

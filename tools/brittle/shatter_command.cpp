@@ -177,6 +177,12 @@ void addPattern(CLI::App& command, const std::shared_ptr<ShatterOptions>& option
     command.add_option("--relax", options->relax, "rounds in which each site moves to the middle of its cell: evener pieces")
         ->capture_default_str()
         ->check(CLI::Range(0u, 1000u));
+    command
+        .add_option(
+            "--candidates", options->candidates,
+            "a site, of pattern paper: the nearest to the hit is taken, the surer the stronger it is; more crowd closer")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, uint32_t{PAPER_LANES}));
     inRange(command.add_option("--strength", options->strength, "of the hit, in joules where the model is in meters"), 0, 1e12)
         ->capture_default_str();
 }

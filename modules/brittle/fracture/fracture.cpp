@@ -136,12 +136,13 @@ private:
         error.message += "; at precision " + std::string(nameOf(precision)) + " that may come of wrong signs: use exact";
         return error;
     }
-    static bool aboutImpact(const FractureOptions& options) {
-        return options.given_sites.empty() && options.pattern == Pattern::Impact;
+    // About the hit, and by the paper's pattern about the center of the box even without one.
+    static bool sitesCrowd(const FractureOptions& options) {
+        return options.given_sites.empty() && (options.pattern == Pattern::Impact || options.pattern == Pattern::Paper);
     }
     static Search searchOf(const FractureOptions& options, const EventGrid& grid) {
         if (options.cells == CellMapping::Edges) return Search::Grid;
-        return chosenSearch(options.search, aboutImpact(options) || grid.fullest_bin > kCrowdedBin);
+        return chosenSearch(options.search, sitesCrowd(options) || grid.fullest_bin > kCrowdedBin);
     }
     static uint32_t siteCount(const FractureOptions& options) {
         return options.given_sites.empty() ? options.site_count : static_cast<uint32_t>(options.given_sites.size());
@@ -159,6 +160,10 @@ private:
                     "the impact is not finite or lies more than 8 times the model's size away; move it closer"};
         if (!(impact.contact_radius >= 0) || !(impact.favor >= 0))
             return engine::Error{engine::ErrorCode::BadInput, "an impact's strength is negative or no number"};
+        if (impact.candidates < 1 || impact.candidates > PAPER_LANES)
+            return engine::Error{engine::ErrorCode::BadInput, std::to_string(impact.candidates) +
+                                                                  " candidates a site; ask for 1 to " +
+                                                                  std::to_string(PAPER_LANES)};
         return {};
     }
 
@@ -203,7 +208,7 @@ private:
         std::vector<Double3> local_sites;
         for (const Double3& site : options.given_sites)
             local_sites.push_back(site - mesh.center);
-        auto grid = makeEventGrid(mesh, local_sites, siteCount(options), aboutImpact(options));
+        auto grid = makeEventGrid(mesh, local_sites, siteCount(options), sitesCrowd(options));
         if (!grid) return grid.error();
         p.grid = *grid;
         for (const Double3& site : local_sites)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "modules/brittle/mesh/mesh.h"
+#include "shaders-spirv/shared/fracture.h"
 
 #include <cstdint>
 
@@ -16,9 +17,10 @@ enum class Pattern : uint8_t {
 
 // A blow. A solid that is hit at no place in particular is hit at the center of its box.
 struct Impact {
-    Double3 place{0, 0, 0};    // model space
-    double contact_radius = 0; // model units, which are meters where a strength is given
-    double favor = 0;          // 0 to 1: how often the paper's pattern takes the candidate nearest to the place
+    Double3 place{0, 0, 0};                 // model space
+    double contact_radius = 0;              // model units, which are meters where a strength is given
+    double favor = 0;                       // 0 to 1: how often the paper's pattern takes the candidate nearest to the place
+    uint32_t candidates = PAPER_CANDIDATES; // a site, of the paper's pattern: 1 to PAPER_LANES
 };
 
 // Of a blow of so many joules. The ball of this radius could hold its energy elastically: 18 kJ/m3, which annealed glass stores

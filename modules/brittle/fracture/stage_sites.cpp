@@ -13,7 +13,7 @@ constexpr uint32_t kPatternRounds = 2, kEvenRounds = 4;
 
 struct PlacePush {
     Int4 low, high, impact;
-    uint32_t site_count, occupied, seed_low, seed_high, first_try, triangle_count, favor, furthest, tallest;
+    uint32_t site_count, occupied, seed_low, seed_high, first_try, triangle_count, favor, furthest, tallest, candidates;
 };
 
 double furthestPlace(const EventGrid& g, const Int3& from) {
@@ -41,15 +41,17 @@ PlacePush placePush(const Event& e, const Placement& from) {
             e.capacity.triangles,
             static_cast<uint32_t>(std::clamp(impact.favor, 0.0, 1.0) * 4294967295.0),
             static_cast<uint32_t>(furthest),
-            from.columns.tallest};
+            from.columns.tallest,
+            impact.candidates};
 }
 
 void recordPatternRound(const Event& e, Pattern pattern, const PlacePush& push) {
     const auto& b = e.b;
     const uint32_t sites = e.capacity.sites;
+    const uint32_t in_group = PAPER_LANES / push.candidates;
     if (pattern == Pattern::Paper)
         e.record.runGroups(
-            "place_sites_paper", (sites + 31) / 32, push,
+            "place_sites_paper", (sites + in_group - 1) / in_group, push,
             {e.record.counts(), b.grid_vertices, b.mesh_triangles, b.column_start, b.column_triangles, b.raw_sites, b.placed});
     else
         e.record.run("place_sites_impact", Length::of(sites), push,
