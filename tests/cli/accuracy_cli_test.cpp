@@ -83,7 +83,50 @@ TEST_F(AccuracyCli, SaysWhatIsWrongWithResultsAndWhere) {
     expectRefusedResults(broken([](json& r) { r["machine"]["cores"] = nullptr; }), "/machine/cores");
     expectRefusedResults(broken([](json& r) { r["measurements"][0]["workload"] = "nothing"; }), "\"nothing\"");
     expectRefusedResults(broken([](json& r) { r["measurements"][0]["errors"][0]["kind"] = "guess"; }), "\"guess\"");
-    expectRefusedResults(broken([](json& r) { r["useful"][0]["measurement"] = 100000; }), "100000");
+}
+
+TEST_F(AccuracyCli, RefusesResultsThatNoSweepLeaves) {
+    const json results = json::parse(fileBytes(kStored));
+    const auto expectFlaw = [&](const char* place, const json& value, const std::string& holds) {
+        json changed = results;
+        changed[json::json_pointer(place)] = value;
+        expectRefusedResults(changed.dump(), holds);
+    };
+    expectFlaw("/measurements/0/is_default", false, "/workloads/0 has no default");
+    expectFlaw("/measurements/1/is_default", true, "/workloads/0 has no default that had a result, more than one");
+    expectFlaw("/measurements/0/failed", "no result", "/workloads/0 has no default");
+    expectFlaw("/measurements/0/ms/raw", json::array(), "/measurements/0/ms/raw is empty");
+    expectFlaw("/measurements/0/ms/raw/0", 0, "/measurements/0/ms/raw has a time that is not above 0 ms");
+    expectFlaw("/measurements/0/errors", json::array(), "/measurements/0 has no error");
+    expectFlaw("/measurements/0/errors/0/value", -1, "/measurements/0/errors/0 is below 0");
+    expectFlaw("/measurements/0/errors/0/resolution", 0, "/measurements/0/errors/0 has a resolution");
+    expectFlaw("/measurements", json::array(), "/workloads/0 was not measured");
+    expectFlaw("/workloads/0/kinds", json::array(), "/workloads/0 has no kind");
+    expectFlaw("/workloads/1/name", results["workloads"][0]["name"], "/workloads/1 has the name of another");
+    expectFlaw("/figures/0/series", json::array(), "/figures/0 has no point");
+    expectFlaw("/figures/0/series/0/points/0/sites", 0, "/figures/0/series/0/points/0 has no sites");
+    expectFlaw("/shares/0/stages", json::array(), "/shares/0 has no sites or took no time");
+    expectFlaw("/laws/0/bins", json::array(), "/laws/0/bins is empty");
+    expectFlaw("/laws/0/bins/3/to", -1, "/laws/0/bins/3 does not end");
+    expectFlaw("/pictures/0/cheap", "", "/pictures/0 has a picture that is no PNG");
+    expectFlaw("/hard/0/name", "", "/hard/0 has no name");
+}
+
+// Medians, ratios, and which lines are told, are those of the times, whatever stands beside them.
+TEST_F(AccuracyCli, FindsWhatFollowsFromTimesAnew) {
+    json results = json::parse(fileBytes(kStored));
+    const Outcome usual = accuracy({"--from", kStored, "-o", path("usual")});
+    for (json& m : results["measurements"]) {
+        m["ms"]["median"] = 12345;
+        m["times_default"] = -1;
+        m["is_dominated"] = true;
+    }
+    results["useful"] = {{{"text", "made up"}, {"measurement", 100000}}};
+    std::ofstream(path("results.json")) << results.dump();
+    const Outcome anew = accuracy({"--from", path("results.json"), "-o", path("anew")});
+    EXPECT_EQ(anew.exit_code, 0) << anew.err;
+    EXPECT_EQ(anew.out.substr(0, anew.out.find("report ")), usual.out.substr(0, usual.out.find("report ")));
+    EXPECT_EQ(fileBytes(path("anew/report.html")), fileBytes(path("usual/report.html")));
 }
 
 TEST_F(AccuracyCli, WritesThePageOfResultsThatAreThere) {

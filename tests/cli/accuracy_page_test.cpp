@@ -156,8 +156,8 @@ TEST_F(AccuracyPage, MovesThePointOfTheNumberThatChanges) {
     Browser browser(profile());
     browser.open(pageOf(results));
     const json before = placesOf(browser);
-    json& median = results["measurements"][middle]["ms"]["median"];
-    median = median.get<double>() * 1.05;
+    for (json& ms : results["measurements"][middle]["ms"]["raw"])
+        ms = ms.get<double>() * 1.05;
     browser.open(pageOf(results));
     const json after = placesOf(browser);
     ASSERT_EQ(before.size(), after.size());

@@ -27,9 +27,18 @@ protected:
     }
     // Measured on lavapipe, which is what these tests run on.
     void storePrices() const {
-        const json stored = json::parse(fileBytes(std::string(BRITTLE_SOURCE_DIR) + "/tests/cli/accuracy_results.json"));
+        storePrices([](json&) {});
+    }
+    template <class Change>
+    void storePrices(const Change& change) const {
+        json stored = measuredPrices();
+        const std::string name = slug(stored);
+        change(stored);
         std::filesystem::create_directories(folder() / "brittle");
-        std::ofstream(folder() / "brittle" / slug(stored)) << stored.dump();
+        std::ofstream(folder() / "brittle" / name) << stored.dump();
+    }
+    static json measuredPrices() {
+        return json::parse(fileBytes(std::string(BRITTLE_SOURCE_DIR) + "/tests/cli/accuracy_results.json"));
     }
     static std::string slug(const json& stored) {
         std::string name = "prices_";
@@ -52,6 +61,35 @@ TEST_F(AutoCli, WithoutPricesOfTheDeviceItSaysHowToMeasureThem) {
         EXPECT_NE(out.err.find("brittle accuracy --quick"), std::string::npos) << out.err;
         EXPECT_FALSE(std::filesystem::exists(path("a.glb")));
     }
+}
+
+TEST_F(AutoCli, PricesThatAreDamagedAreRefusedWithWhatToDo) {
+    const auto expectRefused = [&](const std::string& holds) {
+        const Outcome out = run({"shatter", "builtin:cube", "-o", path("a.glb"), "--budget-ms", "5"});
+        EXPECT_EQ(out.exit_code, 2) << out.out;
+        EXPECT_NE(out.err.find(holds), std::string::npos) << out.err;
+        EXPECT_NE(out.err.find("measure anew"), std::string::npos) << out.err;
+        EXPECT_EQ(std::ranges::count(out.err, '\n'), 1) << out.err;
+        EXPECT_FALSE(std::filesystem::exists(path("a.glb")));
+    };
+    storePrices([](json& prices) { prices["measurements"] = json::array(); });
+    expectRefused("/workloads/0 was not measured");
+    storePrices([](json& prices) { prices["measurements"] = prices["workloads"] = prices["peers"] = json::array(); });
+    expectRefused("holds no price of fracture");
+    const std::string whole = measuredPrices().dump(), name = slug(measuredPrices());
+    std::ofstream(folder() / "brittle" / name) << whole.substr(0, whole.size() / 2);
+    expectRefused("is no JSON");
+}
+
+// As where another version has measured them.
+TEST_F(AutoCli, SettingsThatThisVersionHasNotGotAreNotPicked) {
+    storePrices([](json& prices) {
+        for (json& m : prices["measurements"])
+            if (m["knob"] == "search") m["setting"] = "crystal ball", m["ms"]["raw"] = {1e-6};
+    });
+    const Outcome out = run({"shatter", "builtin:cube", "-o", path("a.glb"), "--tolerance", "1", "--json"});
+    ASSERT_EQ(out.exit_code, 0) << out.err;
+    EXPECT_NE(json::parse(out.out)["picked"]["setting"], "crystal ball");
 }
 
 TEST_F(AutoCli, ShatterPicksSaysWhichAndWhy) {

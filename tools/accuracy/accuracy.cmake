@@ -2,7 +2,7 @@
 # example scene lie in the program.
 set(accuracy_dir ${CMAKE_CURRENT_LIST_DIR})
 # What measurements are held against, and what they say: apart from the program, for tests.
-set(accuracy_judgment fracture_truth judge price_list results results_json scene_truth)
+set(accuracy_judgment fracture_truth judge price_list results results_check results_json scene_truth)
 list(TRANSFORM accuracy_judgment PREPEND ${accuracy_dir}/)
 list(TRANSFORM accuracy_judgment APPEND .cpp)
 if(TARGET brittle_module)

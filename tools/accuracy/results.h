@@ -164,7 +164,8 @@ std::string shortNumber(double value);
 
 std::string encodeResults(const Results& results);
 std::string encodeCsv(const Results& results); // a row a measurement and kind of error
-// Errors: BadInput, beginning with the file's name, for what cannot be read, is no such file or not whole, with where.
+// What follows from the times in it, from medians to useful lines, is found anew. Errors: BadInput, beginning with the file's
+// name, for what cannot be read, is no such file, is not whole or no sweep leaves (results_check.h), with where.
 engine::Result<Results> readResults(const std::filesystem::path& path);
 
 } // namespace accuracy

@@ -1,7 +1,9 @@
 // Says in which member something was missing or of another type.
 #define JSON_DIAGNOSTICS 1
 
+#include "tools/accuracy/judge.h"
 #include "tools/accuracy/results.h"
+#include "tools/accuracy/results_check.h"
 
 #include <nlohmann/json.hpp>
 
@@ -62,25 +64,17 @@ engine::Result<std::string> readText(const std::filesystem::path& path) {
     return text.str();
 }
 
-// The names that one part has for another.
-engine::Result<void> checkNames(const std::filesystem::path& path, const Results& results) {
-    const auto unknown = [&](const std::string& where, const std::string& name) {
-        return refused(path, where + " names \"" + name + "\", which is not in the file" + kAdvice);
-    };
-    for (const Workload& workload : results.workloads)
-        for (const std::string& kind : workload.kinds)
-            if (kindOf(results, kind) == nullptr) return unknown("workload " + workload.name, kind);
-    for (size_t k = 0; k < results.measurements.size(); ++k) {
-        const Measurement& m = results.measurements[k];
-        const std::string where = "measurement " + std::to_string(k);
-        if (workloadOf(results, m.workload) == nullptr) return unknown(where, m.workload);
-        for (const MeasuredError& error : m.errors)
-            if (kindOf(results, error.kind) == nullptr) return unknown(where, error.kind);
-    }
-    for (const UsefulLine& line : results.useful)
-        if (line.measurement >= results.measurements.size())
-            return unknown("a useful line", "measurement " + std::to_string(line.measurement));
-    return {};
+// What follows from the times that were taken, so that nobody has to keep to it who edits a file.
+void conclude(Results& results) {
+    for (Measurement& m : results.measurements)
+        m.ms = samplesOf(std::move(m.ms.raw));
+    for (Peer& peer : results.peers)
+        peer.ms = samplesOf(std::move(peer.ms.raw));
+    for (Figure& figure : results.figures)
+        for (FigureSeries& series : figure.series)
+            for (FigurePoint& point : series.points)
+                point.ms = samplesOf(std::move(point.ms.raw));
+    judge(results);
 }
 
 engine::Result<Results> decode(const std::filesystem::path& path, const nlohmann::json& json) {
@@ -90,7 +84,8 @@ engine::Result<Results> decode(const std::filesystem::path& path, const nlohmann
         return refused(path, "is of version " + json.value("version", nlohmann::json()).dump() +
                                  ", this program reads version " + std::to_string(kVersion) + kAdvice);
     Results results = json.get<Results>();
-    if (auto named = checkNames(path, results); !named) return named.error();
+    if (const std::string flaw = flawOf(results); !flaw.empty()) return refused(path, flaw + kAdvice);
+    conclude(results);
     return results;
 }
 
@@ -140,7 +135,7 @@ engine::Result<Results> readResults(const std::filesystem::path& path) {
     try {
         return decode(path, nlohmann::json::parse(*text));
     } catch (const nlohmann::json::parse_error& error) {
-        return refused(path, "is no JSON: " + wordsOf(error));
+        return refused(path, "is no JSON: " + wordsOf(error) + kAdvice);
     } catch (const nlohmann::json::exception& error) {
         return refused(path, "is not whole: " + wordsOf(error) + kAdvice);
     }

@@ -12,12 +12,23 @@ namespace {
 
 constexpr double kMostMs = 1e6, kMostError = 1e9;
 
-// The setting of that name, which is there: prices are of these.
+template <class Settings>
+auto findByName(const Settings& settings, const accuracy::Price& price) {
+    return std::ranges::find_if(
+        settings, [&](const auto& setting) { return setting.knob == price.knob && setting.setting == price.setting; });
+}
+
+// The setting of that name, which is there: nothing else is picked.
 template <class Settings, class Target>
 void applyByName(const Settings& settings, const accuracy::Price& price, Target& target) {
-    const auto found = std::ranges::find_if(
-        settings, [&](const auto& setting) { return setting.knob == price.knob && setting.setting == price.setting; });
+    const auto found = findByName(settings, price);
     if (found != settings.end()) found->apply(target);
+}
+
+// Prices that another version has measured may be of settings that this one has not got.
+bool isOurs(const accuracy::Price& price, const accuracy::PickedFamily& family) {
+    const auto has = [&](const auto& settings) { return findByName(settings, price) != settings.end(); };
+    return &family == &accuracy::kFractureFamily ? has(accuracy::fractureSettings()) : has(accuracy::dynamicsSettings());
 }
 
 void addWish(CLI::App& command, const char* name, std::optional<double>& wish, double most, const std::string& help) {
@@ -38,7 +49,13 @@ engine::Result<AutoReport> pickSetting(const engine::Device& device, const accur
                                        const accuracy::Wish& wish) {
     const auto list = accuracy::readPriceList(device);
     if (!list) return list.error();
-    const auto choice = accuracy::choose(accuracy::pricesOf(*list, family), family, usual_ms, wish);
+    std::vector<accuracy::Price> prices = accuracy::pricesOf(*list, family);
+    std::erase_if(prices, [&](const accuracy::Price& price) { return !isOurs(price, family); });
+    if (prices.empty())
+        return engine::Error{engine::ErrorCode::BadInput,
+                             accuracy::priceListPath(device.name(), device.driver()).string() + ": holds no price of " +
+                                 family.name + " that this version knows; measure anew: brittle accuracy --quick"};
+    const auto choice = accuracy::choose(prices, family, usual_ms, wish);
     if (!choice) return choice.error();
     return AutoReport{*choice, choiceText(*choice, family, list->machine), usual_ms, {}};
 }

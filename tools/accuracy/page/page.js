@@ -8,6 +8,11 @@ const kFamilies = {
 };
 
 function showLead() {
+  if (results.measurements.length === 0) {
+    section("lead").append("Nothing but hard cases was run, on ", words("/machine/device"), ", ", words("/machine/date"), " UTC. " +
+        "What accuracy costs in time, brittle accuracy measures.");
+    return;
+  }
   section("lead").append("Every knob of Brittle that trades accuracy for time, turned alone and some two at a time, on ",
       words("/machine/device"), ", ", words("/machine/date"), " UTC. Below and to the left is better. ",
       at("/machine/is_quick") ? "A quick run: small workloads, few rounds." : "");
@@ -195,6 +200,9 @@ function showMachine() {
 }
 
 function showReferences() {
+  if (results.measurements.length > 0 && results.peers.length === 0)
+    section("references").append(make("p", { class: "note" }, "No other library was measured: CGAL is a program of its own, " +
+        "brittle_peer_cgal, which tools/accuracy.sh builds beside brittle."));
   section("references").append(make("div", { class: "scroll" }, make("table", {},
       make("thead", {}, make("tr", {}, ["Kind", "Error", "Unit", "Reference"].map((name) => make("th", { scope: "col" }, name)))),
       make("tbody", {}, results.kinds.map((kind, k) => make("tr", {},
