@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
@@ -54,6 +56,15 @@ TEST_F(AccuracyCli, RefusesFoldersThatItCannotWriteTo) {
     std::ofstream(path("file")) << "a file";
     expectRefused({"--from", kStored, "-o", path("file")}, path("file"));
     expectRefused({"--quick", "-o", path("file") + "/below"}, path("file"));
+}
+
+// `timeout` sends the signal while the sweep runs.
+TEST_F(AccuracyCli, LeavesNothingBehindWhereItIsInterrupted) {
+    const std::string command = "timeout --preserve-status -s INT 1.5 " + std::string(BRITTLE_BINARY_DIR) +
+                                "/brittle accuracy --quick -o " + path("deep/page") + " 2>/dev/null";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
+    EXPECT_TRUE(std::filesystem::is_empty(folder()));
 }
 
 TEST_F(AccuracyCli, RefusesModelsBeforeItMeasuresAnything) {

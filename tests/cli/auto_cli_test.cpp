@@ -81,6 +81,13 @@ TEST_F(AutoCli, PricesThatAreDamagedAreRefusedWithWhatToDo) {
     expectRefused("is no JSON");
 }
 
+TEST_F(AutoCli, AStepHasToBeTakenForOneToBePicked) {
+    storePrices();
+    const Outcome out = run({"simulate", "stack_3", "--json", "--seconds", "0", "--budget-ms", "1"});
+    EXPECT_EQ(out.exit_code, 2);
+    EXPECT_NE(out.err.find("give more --seconds"), std::string::npos) << out.err;
+}
+
 // As where another version has measured them.
 TEST_F(AutoCli, SettingsThatThisVersionHasNotGotAreNotPicked) {
     storePrices([](json& prices) {

@@ -75,6 +75,9 @@ TEST_F(HardCli, RefusesWhatThereIsNot) {
     expectRefused(hard({"--only", ""}), "empty name");
     expectRefused(hard({"--device", "no such device"}), "no such device", 4);
     expectRefused(hard({"-o", "/proc/no"}), "/proc/no");
+    expectRefused(hard({"--device", "no such device", "-o", path("page")}), "no such device", 4);
+    expectRefused(hard({"--only", "no such case", "-o", path("deep/page")}), "brittle hard --list");
+    EXPECT_TRUE(std::filesystem::is_empty(folder())) << "folders go again where nothing comes into them";
     std::filesystem::create_directories(folder() / "page");
     std::ofstream(path("page/results.json")) << "{";
     expectRefused(hard({"-o", path("page")}), "results.json");

@@ -1,7 +1,6 @@
 #include "tools/accuracy/result_files.h"
 
 #include "tools/accuracy/report.h"
-#include "tools/brittle/interrupt.h"
 
 namespace accuracy {
 
@@ -11,11 +10,9 @@ const ResultFile kResultsFile = {"results.json", encodeResults}, kTableFile = {"
                  kPageFile = {"report.html", encodeReport};
 
 Result<void> ResultFiles::open(const std::filesystem::path& folder, std::initializer_list<ResultFile> kinds) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-        return engine::Error{engine::ErrorCode::BadInput,
-                             folder.string() + ": cannot be made: " + failed.message() + "; give another folder with -o"};
+    auto made = cli::OutputFolder::create(folder);
+    if (!made) return made.error();
+    folder_ = std::move(*made);
     for (const ResultFile& kind : kinds) {
         auto file = cli::createOutput((folder / kind.name).string());
         if (!file) return file.error();

@@ -3,6 +3,7 @@
 
 #include "modules/brittle/export/output_file.h"
 #include "tools/accuracy/results.h"
+#include "tools/brittle/interrupt.h"
 
 #include <filesystem>
 #include <initializer_list>
@@ -26,6 +27,7 @@ public:
     engine::Result<void> write(const Results& results);
 
 private:
+    cli::OutputFolder folder_; // outlives what was begun in it
     std::vector<std::pair<ResultFile, brittle::OutputFile>> files_;
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 std::mutex begun_mutex;
 std::vector<std::filesystem::path> begun; // named after this process, so that what is still there is ours
+std::vector<std::filesystem::path> made;  // folders, the outermost first
 
 sigset_t interrupts() {
     sigset_t set;
@@ -19,12 +20,29 @@ sigset_t interrupts() {
     return set;
 }
 
+// Others are left, as std::filesystem::remove has it.
+void removeEmpty(const std::vector<std::filesystem::path>& folders) {
+    std::error_code ignored;
+    for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder)
+        std::filesystem::remove(*folder, ignored);
+}
+
+std::vector<std::filesystem::path> missingFolders(const std::filesystem::path& path) {
+    std::vector<std::filesystem::path> missing;
+    std::error_code ignored;
+    for (std::filesystem::path at = std::filesystem::absolute(path, ignored);
+         !at.empty() && !std::filesystem::exists(at, ignored); at = at.parent_path())
+        missing.insert(missing.begin(), at);
+    return missing;
+}
+
 // In order, so that what may just be written goes last. Nothing new is begun any more: the mutex stays locked.
 void removeBegun() {
     begun_mutex.lock();
     std::error_code ignored;
     for (const std::filesystem::path& path : begun)
         std::filesystem::remove(path, ignored);
+    removeEmpty(made);
 }
 
 // As if nobody had waited for it.
@@ -53,6 +71,25 @@ engine::Result<brittle::OutputFile> createOutput(const std::filesystem::path& pa
     auto file = brittle::OutputFile::create(path);
     if (file) begun.push_back(file->temporaryPath());
     return file;
+}
+
+engine::Result<OutputFolder> OutputFolder::create(const std::filesystem::path& path) {
+    OutputFolder folder; // before the lock, which it takes where it goes
+    const std::lock_guard lock(begun_mutex);
+    folder.made_ = missingFolders(path);
+    made.insert(made.end(), folder.made_.begin(), folder.made_.end());
+    std::error_code failed;
+    std::filesystem::create_directories(path, failed);
+    if (failed)
+        return engine::Error{engine::ErrorCode::BadInput,
+                             path.string() + ": cannot be made: " + failed.message() + "; give another folder with -o"};
+    return folder;
+}
+
+OutputFolder::~OutputFolder() {
+    if (made_.empty()) return; // what was moved from is destroyed under the lock
+    const std::lock_guard lock(begun_mutex);
+    removeEmpty(made_);
 }
 
 } // namespace cli

@@ -72,6 +72,10 @@ void setStep(StagedScene& staged, double dt) {
 Result<AutoReport> pickFor(engine::Device& device, StagedScene& staged, const SimulateOptions& options) {
     const brittle::StepDescription& step = staged.scene.step;
     const double seconds = std::min({kTrial, options.seconds.value_or(kTrial), step.steps * step.dt});
+    if (seconds < step.dt)
+        return engine::Error{engine::ErrorCode::BadInput,
+                             "--budget-ms and --tolerance pick by what a step takes, and so short a "
+                             "time has none; give more --seconds"};
     showProgress("measuring the first second");
     const auto usual = simulate(device, staged, seconds, options.group_size, nullptr);
     if (!usual) return usual.error();

@@ -103,11 +103,11 @@ int runHard(const HardOptions& options) {
             std::printf("%s\n", name.c_str());
         return kOk;
     }
+    const auto device = engine::Device::create({.select = options.device});
+    if (!device) return fail(device.error());
     accuracy::ResultFiles files;
     if (!options.folder.empty())
         if (auto ready = prepare(options.folder, files); !ready) return fail(ready.error());
-    const auto device = engine::Device::create({.select = options.device});
-    if (!device) return fail(device.error());
     auto outcomes = hard::runHardCases(**device, options.run, watchOnTerminal());
     if (!outcomes) return fail(outcomes.error());
     printSum(*outcomes);
