@@ -20,17 +20,9 @@ UPDATES(7, uint, soonest); // in steps, as bits: of floats that are not negative
 layout(push_constant) uniform Push { float duration; }; // of the step, s
 #include "lib/blow_place.glsl"
 #include "lib/takes_part.glsl"
-
-// The first pair whose first piece is not before this one.
-uint firstPairOf(uint piece) {
-    uint low = 0u, high = counts[COUNT_STRUCK];
-    while (low < high) {
-        uint middle = (low + high) / 2u;
-        if (pairs[middle].x < piece) low = middle + 1u;
-        else high = middle;
-    }
-    return low;
-}
+#define SORTED_KEY(i) pairs[i].x
+#define SORTED_COUNT COUNT_STRUCK
+#include "lib/sorted_list.glsl"
 
 float meetsAt(uint p) { return uintBitsToFloat(blows[p].sides.y); }
 
@@ -44,7 +36,7 @@ bool isStoppedBefore(uint p) {
     uvec2 ids = memory[p].ids.xy, of = shapes[ids.x].pieces.xy;
     if (of.y + shapes[ids.y].pieces.y <= 2u) return false;
     float speed = blows[p].blow.y, before = meetsAt(p) - kTogether / (duration * speed);
-    for (uint other = firstPairOf(of.x), end = firstPairOf(of.x + of.y); other < end; other++)
+    for (uint other = firstFrom(of.x), end = firstFrom(of.x + of.y); other < end; other++)
         if (memory[other].ids.y == ids.y && meetsAt(other) < before && stops(other, speed)) return true;
     return false;
 }

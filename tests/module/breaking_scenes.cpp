@@ -33,13 +33,9 @@ SceneDescription sceneOf(std::vector<BodyDescription> bodies, bool floor) {
 }
 
 std::unique_ptr<brittle::World> worldOf(const SceneDescription& scene, const brittle::WorldBudget& budget) {
-    std::unique_ptr<brittle::Fracture> fracture; // of bodies of many pieces
-    if (brittle::needsFracture(scene)) {
-        auto made = brittle::Fracture::create(engine_test::device());
-        EXPECT_TRUE(made) << made.error().message;
-        fracture = std::move(*made);
-    }
-    const auto contents = brittle::contentsOf(scene, {}, fracture.get());
+    const auto fracture = brittle::fractureFor(scene, engine_test::device());
+    EXPECT_TRUE(fracture) << fracture.error().message;
+    const auto contents = brittle::contentsOf(scene, {}, fracture->get());
     EXPECT_TRUE(contents) << contents.error().message;
     const auto settings = brittle::settingsOf(scene);
     EXPECT_TRUE(settings);

@@ -46,10 +46,9 @@ struct Staged {
 };
 
 Staged staged(const SceneDescription& scene) {
-    std::unique_ptr<Fracture> fracture;
-    if (needsFracture(scene)) fracture = std::move(*Fracture::create(engine_test::device()));
+    const auto fracture = fractureFor(scene, engine_test::device());
     Staged made;
-    auto contents = contentsOf(scene, ".", fracture.get(), &made.surfaces);
+    auto contents = contentsOf(scene, ".", fracture->get(), &made.surfaces);
     EXPECT_TRUE(contents) << (contents ? "" : contents.error().message);
     if (contents) made.contents = std::move(*contents);
     return made;

@@ -123,13 +123,9 @@ Result<SceneStart> startOf(Sweep& sweep, const std::string& name) {
     if (!scene) return scene.error();
     if (name == kShotScene) throwRodAslant(scene->bodies.front());
     if (name == kWindowScene) scene->budgets.fragments = kWindowFragments;
-    std::unique_ptr<brittle::Fracture> fracture;
-    if (brittle::needsFracture(*scene)) {
-        auto made = brittle::Fracture::create(sweep.device, sweep.options.group_size);
-        if (!made) return made.error();
-        fracture = std::move(*made);
-    }
-    auto contents = brittle::contentsOf(*scene, ".", fracture.get());
+    const auto fracture = brittle::fractureFor(*scene, sweep.device, sweep.options.group_size);
+    if (!fracture) return fracture.error();
+    auto contents = brittle::contentsOf(*scene, ".", fracture->get());
     if (!contents) return contents.error();
     return SceneStart{std::move(*scene), std::move(*contents)};
 }

@@ -139,14 +139,10 @@ Result<StagedScene> stageScene(engine::Device& device, brittle::SceneDescription
     StagedScene staged;
     staged.scene = std::move(scene);
     if (staged.scene.name.empty()) staged.scene.name = staging.source;
-    std::unique_ptr<brittle::Fracture> fracture;
-    if (brittle::needsFracture(staged.scene)) {
-        auto made = brittle::Fracture::create(device, staging.group_size);
-        if (!made) return made.error();
-        fracture = std::move(*made);
-    }
+    const auto fracture = brittle::fractureFor(staged.scene, device, staging.group_size);
+    if (!fracture) return fracture.error();
     showProgress("making the bodies");
-    auto contents = brittle::contentsOf(staged.scene, folderOf(staging.source), fracture.get(),
+    auto contents = brittle::contentsOf(staged.scene, folderOf(staging.source), fracture->get(),
                                         staging.has_surfaces ? &staged.surfaces : nullptr);
     if (!contents) return Error{contents.error().code, staged.scene.name + ": " + contents.error().message};
     staged.contents = std::move(*contents);

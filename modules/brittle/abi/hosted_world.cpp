@@ -66,8 +66,7 @@ void HostedWorld::start(engine::Device& device) {
     constexpr uint64_t kUsualFragments = 1024;
     if (originalCount() + std::max<uint64_t>(scene.budgets.fragments, kUsualFragments) >= kColliders)
         throw Refusal(BRITTLE_CAPACITY, "a world has at most 2 million bodies, colliders and fragments together");
-    std::unique_ptr<Fracture> fracture;
-    if (needsFracture(scene)) fracture = orRefuse(Fracture::create(device));
+    const auto fracture = orRefuse(fractureFor(scene, device));
     surfaces = {};
     auto contents = orRefuse(contentsOf(scene, {}, fracture.get(), has_surfaces ? &surfaces : nullptr));
     if (has_surfaces) addLooks(contents, surfaces);

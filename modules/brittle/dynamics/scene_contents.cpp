@@ -354,10 +354,12 @@ Result<void> ContentsMaker::addSurface(const ColliderDescription& d, BodyDefinit
 
 } // namespace
 
-bool needsFracture(const SceneDescription& scene) {
-    return std::ranges::any_of(scene.bodies, [](const BodyDescription& body) {
+Result<std::unique_ptr<Fracture>> fractureFor(const SceneDescription& scene, engine::Device& device, uint32_t group_size) {
+    const bool cuts = std::ranges::any_of(scene.bodies, [](const BodyDescription& body) {
         return body.shape.cells.sites != 0 || body.shape.kind == ShapeKind::Mesh;
     });
+    if (!cuts) return std::unique_ptr<Fracture>();
+    return Fracture::create(device, group_size);
 }
 
 Result<WorldContents> contentsOf(const SceneDescription& scene, const std::filesystem::path& folder, Fracture* fracture,
