@@ -81,6 +81,7 @@ TEST(SmallSceneMaterial, RefusesNamesThatNobodyHasWithTheNearestOne) {
         "stone, thin ice");
     EXPECT_EQ(refusalOf("[[material]]\nname = \"a\"\nlike = \"brik\"\n[[body]]\n"),
               "scene.toml:3: unknown 'brik' in 'like', did you mean 'brick'?");
+    EXPECT_EQ(refusalOf(body + "\"\"\n").find("scene.toml:2: 'material' is empty; leave it out, or name one"), 0u);
     EXPECT_EQ(refusalOf(body + "\"tempered_glass\"\n").find("scene.toml:2: body 0: 'tempered_glass' breaks by the stress"), 0u);
 }
 

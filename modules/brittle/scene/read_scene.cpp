@@ -46,7 +46,9 @@ public:
     }
     void operator()(std::string* x) const {
         *x = text(node_);
-        if (!key_.allowed.names.empty() && !key_.allowed.has_own_names && !x->empty()) known(*x, node_);
+        if (key_.allowed.names.empty()) return;
+        if (x->empty()) wrong(node_, "is empty; leave it out, or name one");
+        if (!key_.allowed.has_own_names) known(*x, node_);
     }
     void operator()(const ChoiceRef& x) const { *x.number = known(text(node_), node_); }
     void operator()(Double3* x) const { *x = numbers<3>(node_); }
