@@ -3,6 +3,9 @@
 // body has yet (Jones and Plassmann 1993). Bids come from the contacts' places in the list, scrambled, so that neighbors in the
 // list do not wait for each other; nothing depends on which lane is first.
 //
+// What a contact had may have been given away: while a blow kept it from being solved, or while a body of it slept, since what does not
+// move has no colors. All that hold one color of one body then take turns anew.
+//
 // Where islands are known (ISLANDS), small ones get a range of their own in the order of contacts, behind those of large ones,
 // and order_islands puts the colors in order there. What comes of it is the same: islands share no body that moves.
 #version 450
@@ -17,7 +20,7 @@ UPDATES(0, uint, counts);
 READS(1, uint, contact_pairs);
 UPDATES(2, ContactMemory, memory);
 READS(3, SolverBody, solver_bodies);
-UPDATES(4, uint, body_colors); // two words a body: colors that its contacts have
+UPDATES(4, uint, body_colors); // four words a body: colors that its contacts have, and those that more than one of them had
 UPDATES(5, uint, bids);        // the best for each body, NO_INDEX for none
 UPDATES(6, uint, waiting);     // two lists
 WRITES(7, uint, contact_slots);
@@ -37,6 +40,8 @@ const uint kTurnBudget = 40000u; // of the 65,535 that Mesa's software device al
 
 shared uint waiting_count[2], color_count[NO_COLOR + 1], cursor[NO_COLOR + 1], ordered;
 shared uint colors_used, colorless; // by all contacts, apart or not
+shared uint contested;              // whether any color is
+shared uint before[LANES];          // contacts without a color, in the order of lanes
 
 void sync() {
     memoryBarrierBuffer();
@@ -46,10 +51,26 @@ void sync() {
 bool moves(uint body) { return solver_bodies[body].velocity.w != 0.0; }
 uint bidOf(uint contact) { return contact * 0x9e3779b1u & 0x7fffffffu; }
 
-uvec2 colorsOf(uint body) { return moves(body) ? uvec2(body_colors[2u * body], body_colors[2u * body + 1u]) : uvec2(0u); }
+uvec2 colorsOf(uint body) { return moves(body) ? uvec2(body_colors[4u * body], body_colors[4u * body + 1u]) : uvec2(0u); }
+uint wordOf(uint body, uint color) { return 4u * body + (color >> 5); }
+uint bitOf(uint color) { return 1u << (color & 31u); }
 
 void takeColor(uint body, uint color) {
-    if (moves(body)) atomicOr(body_colors[2u * body + (color >> 5)], 1u << (color & 31u));
+    if (moves(body)) atomicOr(body_colors[wordOf(body, color)], bitOf(color));
+}
+
+void claimColor(uint body, uint color) {
+    uint word = wordOf(body, color), bit = bitOf(color);
+    if (!moves(body) || (atomicOr(body_colors[word], bit) & bit) == 0u) return;
+    atomicOr(body_colors[word + 2u], bit);
+    contested = 1u;
+}
+
+bool isContested(uint body, uint color) { return moves(body) && (body_colors[wordOf(body, color) + 2u] & bitOf(color)) != 0u; }
+
+// Nobody else keeps it: all others that had it drop it, too, or there are none.
+void dropColor(uint body, uint color) {
+    if (moves(body)) atomicAnd(body_colors[wordOf(body, color)], ~bitOf(color));
 }
 
 uint lowestFree(uvec2 taken) {
@@ -61,9 +82,20 @@ void keepOldColors(uint lane, uint total) {
     for (uint c = lane; c < total; c += LANES) {
         uvec4 ids = memory[contact_pairs[c]].ids;
         if (ids.w < COLORS) {
-            takeColor(ids.x, ids.w);
-            takeColor(ids.y, ids.w);
+            claimColor(ids.x, ids.w);
+            claimColor(ids.y, ids.w);
         } else waiting[atomicAdd(waiting_count[0], 1u)] = c;
+    }
+    sync();
+}
+
+void dropContested(uint lane, uint total) {
+    for (uint c = lane; c < total; c += LANES) {
+        uvec4 ids = memory[contact_pairs[c]].ids;
+        if (ids.w >= COLORS || !(isContested(ids.x, ids.w) || isContested(ids.y, ids.w))) continue;
+        dropColor(ids.x, ids.w);
+        dropColor(ids.y, ids.w);
+        waiting[atomicAdd(waiting_count[0], 1u)] = c;
     }
     sync();
 }
@@ -155,6 +187,28 @@ void countColors(uint lane, uint total) {
     sync();
 }
 
+// Where contacts go within a color is all the same. Without one they are solved one after the other, so they stand in their order: each
+// lane counts those of a part of the list.
+void placeColored(uint lane, uint total) {
+    for (uint c = lane; c < total; c += LANES) {
+        uint color = colorOf(c);
+        if (color != NO_COLOR && !isApart(c)) contact_slots[c] = atomicAdd(cursor[color], 1u);
+    }
+}
+
+bool lacksColor(uint c) { return colorOf(c) == NO_COLOR && !isApart(c); }
+
+void placeColorless(uint lane, uint total) {
+    uint part = (total + LANES - 1u) / LANES, first = min(lane * part, total), last = min(first + part, total), count = 0u;
+    for (uint c = first; c < last; c++) count += lacksColor(c) ? 1u : 0u;
+    before[lane] = count;
+    sync();
+    uint slot = cursor[NO_COLOR];
+    for (uint k = 0u; k < lane; k++) slot += before[k];
+    for (uint c = first; c < last; c++)
+        if (lacksColor(c)) contact_slots[c] = slot++;
+}
+
 void publish(uint lane, uint total, uint apart) {
     bool many = ordered > FEW_CONTACTS;
     if (lane < WIDE_COLORS) publishCount(COUNT_FIRST_COLOR + lane, many ? color_count[lane] : 0u, capacity);
@@ -170,16 +224,18 @@ void publish(uint lane, uint total, uint apart) {
 void main() {
     uint lane = gl_LocalInvocationID.x, total = counts[COUNT_CONTACTS], apart = 0u;
     if (lane < 2u) waiting_count[lane] = 0u;
+    if (lane == 0u) contested = 0u;
     for (uint k = lane; k <= NO_COLOR; k += LANES) color_count[k] = 0u;
     sync();
     keepOldColors(lane, total);
+    dropContested(lane, contested != 0u ? total : 0u);
     colorNew(lane);
 #ifdef ISLANDS
     countIslands(lane, total);
 #endif
     countColors(lane, total);
-    for (uint c = lane; c < total; c += LANES)
-        if (!isApart(c)) contact_slots[c] = atomicAdd(cursor[colorOf(c)], 1u);
+    placeColored(lane, total);
+    placeColorless(lane, color_count[NO_COLOR] != 0u ? total : 0u);
 #ifdef ISLANDS
     apart = setApart(lane, total);
 #endif

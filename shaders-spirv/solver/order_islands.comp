@@ -37,6 +37,13 @@ void endColors(uint lane, uvec2 range) {
     barrier();
 }
 
+// Of what has no color, which is solved one after the other, in the order of contacts: how many come before.
+uint rankOf(uint c, uvec2 range) {
+    uint rank = 0u;
+    for (uint at = range.x; at < range.y; at++) rank += listed[at] < c && colorOf(listed[at]) == NO_COLOR ? 1u : 0u;
+    return rank;
+}
+
 void main() {
     uint lane = gl_LocalInvocationID.x, group = flatGroup();
     if (group >= color_start[ISLANDS_APART]) return;
@@ -44,8 +51,15 @@ void main() {
     countColors(lane, range);
     endColors(lane, range);
     for (uint at = range.x + lane; at < range.y; at += LANES) {
-        uint c = listed[at], color = colorOf(c), slot = atomicAdd(cursor[color], 1u);
+        uint c = listed[at], color = colorOf(c);
+        if (color != NO_COLOR) contact_slots[c] = atomicAdd(cursor[color], 1u);
+    }
+    if (count[NO_COLOR] == 0u) return;
+    for (uint at = range.x + lane; at < range.y; at += LANES) {
+        uint c = listed[at];
+        if (colorOf(c) != NO_COLOR) continue;
+        uint slot = cursor[NO_COLOR] + rankOf(c, range);
         contact_slots[c] = slot;
-        if (color == NO_COLOR) color_ends[slot] = slot + 1u;
+        color_ends[slot] = slot + 1u;
     }
 }

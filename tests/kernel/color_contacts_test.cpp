@@ -2,6 +2,7 @@
 #include "tests/kernel/solver_lab.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -18,7 +19,7 @@ struct Colored {
 Colored colorsOnDevice(const Touching& touching) {
     DeviceTouching in(touching);
     const uint32_t count = touching.count(), bodies = static_cast<uint32_t>(touching.moves.size());
-    const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(2 * bodies)),
+    const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(4 * bodies)),
                          bids = bufferOf(std::vector<uint32_t>(bodies, NO_INDEX)),
                          waiting = blankBuffer<uint32_t>(2 * count + 2), slots = blankBuffer<uint32_t>(count),
                          start = blankBuffer<uint32_t>(COLOR_WORDS);
@@ -48,6 +49,17 @@ bool sharesABody(const Touching& touching, const std::vector<uint32_t>& colors) 
     return false;
 }
 
+// Contacts without a color are solved one after the other: in their own order, whatever lane places them.
+bool colorlessAreInOrder(const std::vector<uint32_t>& colors, const std::vector<uint32_t>& slots) {
+    uint32_t last = 0;
+    for (size_t c = 0; c < colors.size(); ++c) {
+        if (colors[c] < COLORS) continue;
+        if (slots[c] < last) return false;
+        last = slots[c];
+    }
+    return true;
+}
+
 // Every contact has a slot of its own, among those of its color.
 void expectInOrder(const Touching& touching, const Colored& out) {
     std::vector<uint32_t> sizes(COLORS + 1), sorted = out.slots;
@@ -62,6 +74,20 @@ void expectInOrder(const Touching& touching, const Colored& out) {
         EXPECT_GE(out.slots[c], out.start[classOf(out.colors[c])]) << c;
         EXPECT_LT(out.slots[c], out.start[classOf(out.colors[c]) + 1]) << c;
     }
+    EXPECT_TRUE(colorlessAreInOrder(out.colors, out.slots));
+}
+
+// Those that hold a color of a body which another contact of it holds, too, have none.
+std::vector<uint32_t> uncontested(const Touching& touching) {
+    std::map<Word2, uint32_t> holders; // of a color of a body
+    for (uint32_t c = 0; c < touching.count(); ++c)
+        for (const uint32_t body : touching.bodies[c])
+            if (touching.moves[body]) ++holders[{touching.colors[c], body}];
+    std::vector<uint32_t> colors = touching.colors;
+    for (uint32_t c = 0; c < touching.count(); ++c)
+        for (const uint32_t body : touching.bodies[c])
+            if (holders[{touching.colors[c], body}] > 1) colors[c] = NO_COLOR;
+    return colors;
 }
 
 // One contact after the other, the best bid first: each takes the lowest color that its bodies have not.
@@ -142,6 +168,24 @@ TEST(SmallColorContacts, KeepTheColorsThatTheyHad) {
     expectInOrder(heap, out);
 }
 
+// As contacts do that were not solved for a step, or whose bodies slept.
+TEST(SmallColorContacts, ThatComeBackToColorsGivenAwayTakeTurnsAnew) {
+    for (const uint32_t kept : {1u, 3u, 12u}) {
+        Touching heap = randomHeap(1234, kept);
+        heap.colors = colorsOnDevice(heap).colors;
+        Chance chance(kept);
+        for (uint32_t& color : heap.colors)
+            if (chance.oneIn(5)) color = chance.below(kept);
+        ASSERT_TRUE(sharesABody(heap, heap.colors));
+        Touching rest = heap;
+        rest.colors = uncontested(heap);
+        const Colored out = colorsOnDevice(heap);
+        EXPECT_EQ(out.colors, colorsOneByOne(rest));
+        EXPECT_FALSE(sharesABody(heap, out.colors));
+        expectInOrder(heap, out);
+    }
+}
+
 TEST(SmallColorContacts, WithTheGroundAloneHaveOneColor) {
     Touching floor;
     floor.moves.assign(301, true);
@@ -220,7 +264,7 @@ struct ByIsland {
 ByIsland islandsOnDevice(const Heaps& heaps) {
     DeviceTouching in(heaps.all);
     const uint32_t count = heaps.all.count(), bodies = static_cast<uint32_t>(heaps.all.moves.size());
-    const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(2 * bodies)),
+    const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(4 * bodies)),
                          bids = bufferOf(std::vector<uint32_t>(bodies, NO_INDEX)),
                          waiting = blankBuffer<uint32_t>(2 * count + 2), slots = blankBuffer<uint32_t>(count),
                          start = blankBuffer<uint32_t>(COLOR_WORDS), islands = bufferOf(heaps.islands),
@@ -287,6 +331,7 @@ TEST(SmallColorContacts, WithoutAColorAreWalkedOneByOneInTheirIsland) {
     ASSERT_EQ(out.ranges.size(), 1u);
     const auto met = walk(out, out.ranges[0]);
     EXPECT_EQ(met.size(), 200u); // all share a body
+    EXPECT_TRUE(colorlessAreInOrder(out.colors, out.slots));
     EXPECT_EQ(out.start[COLORS_LACKED], 136u);
     EXPECT_EQ(out.start[NO_COLOR + 1], 0u);
 }

@@ -48,7 +48,7 @@ constexpr Row kRows[] = {
     {&S::island_ranges, "island_ranges", kSleeping, Per::Body, 8},
     {&S::listed, "listed", kSleeping, Per::Contact, 4},
     {&S::color_ends, "color_ends", kSleeping, Per::Contact, 4},
-    {&S::body_colors, "body_colors", kContacts, Per::Body, 8},
+    {&S::body_colors, "body_colors", kContacts, Per::Body, 16},
     {&S::bids, "bids", kContacts, Per::Body, 4},
     {&S::waiting, "waiting", kContacts, Per::Contact, 8},
     {&S::color_start, "color_start", kContacts, Per::Color, 4},
