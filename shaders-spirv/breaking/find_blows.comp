@@ -1,4 +1,4 @@
-// Which contacts break what they touch, before they are solved: those of bodies that meet by the end of this step, hard enough for one of
+// Which contacts break what they touch, before they are solved: those of bodies that meet in this step, hard enough for one of
 // them or both. How hard is the energy that the two have along the normal when they meet, which depends on no step and no solver. Where
 // they turn before they meet, all of that is only known once it is known how they will stand then (advance_turning).
 #version 450
@@ -14,7 +14,7 @@ UPDATES(0, uint, counts);
 READS(1, ContactMemory, memory);
 READS(2, BodyState, bodies);
 READS(3, SolverBody, solver_bodies);
-READS(4, uint, touches);
+UPDATES(4, uint, touches);
 READS(5, BreakableBody, breakable);
 READS(6, MaterialCard, cards);
 READS(7, uint, steps);
@@ -71,7 +71,7 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
 // rad, of both together.
 float turnIn(float time, uvec4 ids) { return (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) * time; }
 
-bool turnsUntil(float time, uvec4 ids) { return turnIn(min(abs(time), duration), ids) > kTurned; }
+bool turns(uvec4 ids) { return turnIn(duration, ids) > kTurned; }
 bool isSwift(uvec4 ids) { return turnIn(duration, ids) > kSwift; }
 
 // `time`: as in TurningBlow.
@@ -104,6 +104,6 @@ void main() {
     Meeting met;
     bool is_met = ids.z != 0u && meets(p, ids, memory[p].normal.xyz, met);
     if (isSwift(ids)) judgeSwift(p, ids, is_met, met);
-    else if (is_met && turnsUntil(met.time, ids)) judgeTurning(p, ids, met);
-    else if (is_met && met.time <= horizon()) tellBlow(p, ids.xy, met.record);
+    else if (is_met && turns(ids)) judgeTurning(p, ids, met);
+    else if (is_met && met.time <= horizon()) tellBlow(p, ids.xy, met.record, met.time);
 }

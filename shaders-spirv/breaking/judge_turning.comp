@@ -20,7 +20,7 @@ READS(7, MaterialCard, cards);
 READS(8, uint, steps);
 UPDATES(9, BlowRecord, blows);
 READS(10, ContactMemory, memory);
-WRITES(11, uint, touches);
+UPDATES(11, uint, touches);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of a substep, s
     float duration; // of the step, s
@@ -51,7 +51,7 @@ void judge(uint k, TurningBlow t, TurningContact c, float time) {
     float yield_ = yieldOf(t.ids.y, c.a, c.arm_a, normal) + yieldOf(t.ids.z, c.b, c.arm_b, normal);
     if (yield_ <= 0.0) return;
     vec3 arm_a = armNow(t.ids.y, c.a, c.arm_a), arm_b = armNow(t.ids.z, c.b, c.arm_b);
-    tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, c.closing, max(time, 0.0) / duration, arm_a, arm_b, normal));
+    tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, c.closing, max(time, 0.0) / duration, arm_a, arm_b, normal), time);
 }
 
 void judgePoints(uint k, TurningBlow t) {

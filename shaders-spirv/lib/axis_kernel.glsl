@@ -62,6 +62,16 @@ bool isHit(Seen seen) { return is_fast && seen.separation > 0.0 && seen.enter >=
 
 bool isApart(Seen seen) { return seen.separation > pair.margin + pair.reach && !isHit(seen); }
 
+// Hulls that pass each other by, though they would meet if their sides went on: a body that flies past an edge comes closer to the plane
+// of a face of it, which ends before. They have no points, or they would bump into the air. Of hulls that turn by more than so many
+// rad that is not known.
+const float kHardlyTurns = 2e-3;
+
+bool isMiss(Seen seen, vec3 axis) {
+    bool is_known = is_fast && pair.turned_by <= kHardlyTurns && seen.separation > tie;
+    return is_known && !isHit(seen) && seen.separation + dot(axis, pair.motion) < 0.0;
+}
+
 // B's best instead of A's where it is better for certain, in both respects; what either has seen counts for leaving.
 Seen betterOf(Seen a, Seen b) {
     bool is_wider = b.separation > a.separation + tie;

@@ -15,6 +15,7 @@ struct HullPair {
     vec4 turn;       // the frame's axes to the world's
     vec3 motion;     // of B relative to A over the step
     vec3 turning[2]; // rad, of both over the step, where that moves points by more than the margin
+    float turned_by; // rad, by both together, wherever that moves points
     float smaller;   // of the two radii
     float rounding;  // what heights in this frame may be off by
     float margin;    // points with this separation still count
@@ -70,6 +71,7 @@ float reachOf(HullPair pair, uint side) {
 void boundTurning(inout HullPair pair) {
     float reach = reachOf(pair, 0u) + reachOf(pair, 1u);
     bool is_swift = reach > pair.margin;
+    pair.turned_by = length(pair.turning[0]) + length(pair.turning[1]);
     pair.reach = is_swift ? reach + length(pair.motion) : 0.0;
     if (!is_swift) pair.turning[0] = pair.turning[1] = vec3(0.0);
 }

@@ -1,9 +1,9 @@
 // What a blow breaks, by its energy, its speed and the materials; and its record. Wants `bodies`, `breakable`, `cards`, `steps`, `counts`,
-// `blows`, `duration`, and `gravity`, whose w is the length of a substep, declared.
+// `blows`, `touches`, `duration`, and `gravity`, whose w is the length of a substep, declared.
 #include "lib/break_pattern.glsl"
 #include "lib/breaking_laws.glsl"
 
-// Until when a blow is one of this step, s.
+// Until when the solver brakes what comes closer, s.
 float horizon() { return duration + AHEAD_OF_STEP * gravity.w; }
 
 bool canBreak(uint body) {
@@ -34,14 +34,18 @@ uint sidesThatBreak(uvec2 ids, BlowRecord record) {
     return (a ? BREAKS_A : 0u) | (b ? BREAKS_B : 0u);
 }
 
-// `share`: of the step that is over when they meet; it may lie behind its end by as much as the solver looks ahead.
+// `share`: of the step that is over when they meet.
 BlowRecord blowAt(float yield_, float speed, float share, vec3 arm_a, vec3 arm_b, vec3 normal) {
     return BlowRecord(uvec4(0u, floatBitsToUint(share), 0u, 0u), vec4(1.0 / yield_, speed, 0.5 * speed * speed / yield_, min(share, 1.0)),
                       vec4(arm_a, 0.0), vec4(arm_b, 0.0), vec4(normal, 0.0));
 }
 
-void tellBlow(uint pair, uvec2 ids, BlowRecord record) {
+// `time`: s until they meet. What meets only when the step is over, and then breaks something, is left alone until then: the solver would
+// brake it, and it would break in the air.
+void tellBlow(uint pair, uvec2 ids, BlowRecord record, float time) {
     record.sides.x = sidesThatBreak(ids, record);
-    blows[pair] = record;
-    if (record.sides.x != 0u) atomicAdd(counts[COUNT_BLOWS], 1u);
+    bool breaks_ = record.sides.x != 0u, is_later = time > duration;
+    if (!is_later) blows[pair] = record;
+    if (breaks_ && is_later) touches[pair] = 0u;
+    if (breaks_ && !is_later) atomicAdd(counts[COUNT_BLOWS], 1u);
 }

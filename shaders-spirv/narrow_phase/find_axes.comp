@@ -94,5 +94,6 @@ void main() {
     Seen seen = searchAll();
     AxisRecord record = apartBy(seen.separation);
     if (!isApart(seen)) record = foundBy(seen);
+    if (isMiss(seen, record.axis.xyz)) record = apartBy(seen.separation);
     if (lane == 0u) axis_records[k] = record;
 }

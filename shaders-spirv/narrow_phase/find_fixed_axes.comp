@@ -43,5 +43,6 @@ void main() {
     Seen seen = seeFixedAxes(min(push.fixed_axes, uint(SUPPORT_DIRECTIONS)));
     AxisRecord record = apartBy(seen.separation);
     if (!isApart(seen)) record = foundBy(seen);
+    if (isMiss(seen, record.axis.xyz)) record = apartBy(seen.separation);
     if (lane == 0u) axis_records[k] = record;
 }
