@@ -260,7 +260,7 @@ typedef struct BrittleBudget {
     uint32_t fragments;          /* that there are at a time; 1024 */
     uint32_t fragment_faces;     /* of their colliders */
     uint32_t fragment_triangles; /* of their surfaces */
-    uint32_t most_fragments;     /* of one body; 256 */
+    uint32_t most_fragments;     /* of one body, no more than breaking_sites; 256 */
     uint32_t breaking_bodies;    /* that break in a step, at most 256; the others wait for the next; 16 */
     uint32_t breaking_sites;     /* of a step */
     uint32_t breaking_triangles; /* of their surfaces, in a step */

@@ -52,6 +52,7 @@ layout(push_constant) uniform Push {
 #include "lib/takes_part.glsl"
 
 const float kForEver = 3e38; // s
+const uint kAnyNumber = 0xffffffu; // of fragments
 
 shared uint flags[GROUP_SIZE];
 shared uint listed[MOST_BREAKING];
@@ -196,12 +197,13 @@ void measureReach(uint k, uint body, uint lane) {
 
 float chanceFor(uint body, uint salt) { return float(mixed(seedOf(body) ^ salt) >> CHANCE_SHIFT) * CHANCE_STEP; }
 
-Rays raysOf(uint k, uint body) {
+// `most`: cells.
+Rays raysOf(uint k, uint body, uint most) {
     BlowRecord blow = blowOf(body);
     BodyForm form = formOfBody(body);
     MaterialCard card = cards[breakable[body].surface.w];
     float long_ = card.cracks.z * joulesOf(blow) / card.cracks.y / form.thickness, furthest = furthestFrom(body, blowInFrameOf(body, armOf(body)));
-    return raysFor(long_, blow.blow.y, form.side, reach_of[k], furthest, most_fragments, chanceFor(body, 0x5bd1e995u), chanceFor(body, 0x2545f491u));
+    return raysFor(long_, blow.blow.y, form.side, reach_of[k], furthest, most, chanceFor(body, 0x5bd1e995u), chanceFor(body, 0x2545f491u));
 }
 
 // Of a plate, with what its shape and the place of the blow make of its cracks.
@@ -228,13 +230,16 @@ void countFragments(uint k, uint body) {
     MaterialCard card = cards[breakable[body].surface.w];
     uint spread = spreadOf(patternOf(body)), paid;
     if (isRadial(body)) {
-        Rays rays = raysOf(k, body);
-        paid = rays.spokes * rays.rings;
+        for (uint turn = 0u; turn < ROLLED(2); turn++) {
+            Rays rays = raysOf(k, body, turn == 0u ? kAnyNumber : most_fragments);
+            sites_of[k] = rays.spokes * rays.rings;
+            paid = turn == 0u ? sites_of[k] : paid;
+        }
     } else {
-        paid = max(fragmentCount(card, formUnderBlow(body), joulesOf(blowOf(body)), 0xffffffu, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
+        paid = max(fragmentCount(card, formUnderBlow(body), joulesOf(blowOf(body)), kAnyNumber, chanceFor(body, 0x5bd1e995u), spread, favorFor(body)), 2u);
+        sites_of[k] = min(paid, most_fragments);
     }
     paid_of[k] = float(paid);
-    sites_of[k] = min(paid, most_fragments);
 }
 
 #include "lib/expected_pairs.glsl"
@@ -375,7 +380,7 @@ void main() {
     barrier();
     for (uint k = lane; k < found; k += GROUP_SIZE) {
         if (admitted[k] == NO_INDEX) continue;
-        Rays rays = isRadial(listed[k]) ? raysOf(k, listed[k]) : Rays(0u, 0u, 0.0, 0.0);
+        Rays rays = isRadial(listed[k]) ? raysOf(k, listed[k], most_fragments) : Rays(0u, 0u, 0.0, 0.0);
         setBroken(admitted[k], listed[k], sites_of[k], paid_of[k], rays);
     }
 }

@@ -17,15 +17,19 @@ const float kInnermost = 24.0;  // of a plate's side: the first ring's share
 const float kMostRatio = 4.0, kLeastRatio = 1.05;
 const float kDisk = 0.5642;     // reach from the middle of a disk, of the side of a square as large
 const float kSliver = 0.125;    // of a ring's width
+const float kMostOblong = 6.0;  // times as long around the blow as wide is the longest piece; chosen
 
 float lengthOfRings(float reach, float innermost, float ratio, float spokes) {
     float last = reach / (1.0 + kSliver * (ratio - 1.0)), first = 0.5 * innermost * (ratio + 1.0);
     return 6.2832 * (1.0 + 3.7 / (spokes * spokes)) * (last / log(ratio) - first / (ratio - 1.0));
 }
 
+// Finer rings would be splinters that lie across the way from the blow.
+float leastRatioFor(float spokes) { return max(kLeastRatio, 1.0 + 6.2832 / (kMostOblong * spokes)); }
+
 // The ratio whose rings are so long: they are shorter the larger it is.
 float ratioFor(float length_, float reach, float innermost, float spokes) {
-    float low = kLeastRatio, high = kMostRatio;
+    float low = leastRatioFor(spokes), high = kMostRatio;
     for (uint k = 0u; k < 24u; k++) {
         float middle = 0.5 * (low + high);
         bool longer = lengthOfRings(reach, innermost, middle, spokes) > length_;
@@ -42,13 +46,26 @@ uint ringsUpTo(float furthest, float innermost, float ratio, float phase) {
     return 1u + uint(max(ceil(log(furthest / first) / log(ratio)), 0.0));
 }
 
+// From `least` on, as many as it takes for what is paid for not to be more than that with the finest rings, and there is room for.
+float spokesFor(float least, float length_, float reach, float innermost, float furthest, uint most, float phase) {
+    float spokes = least;
+    for (float more = 1024.0; more >= 1.0; more *= 0.5) {
+        float fewer = spokes + more - 1.0, ratio = leastRatioFor(spokes + more);
+        bool is_paid = fewer * reach + lengthOfRings(reach, innermost, leastRatioFor(fewer), fewer) < length_;
+        bool fits = (spokes + more) * float(ringsUpTo(furthest, innermost, ratio, phase)) <= float(most);
+        if (is_paid && fits) spokes += more;
+    }
+    return spokes;
+}
+
 // Spokes are as many as the root of the speed (Vandenberghe, Vermorel, Villermaux, Star-shaped crack pattern of broken windows,
-// 2013), more where the rim is near and little of the plate lies in many directions; what they leave goes into rings, and where it pays for none, into spokes. Where there is no room for so
-// many cells, rings are fewer and wider. `length_`: of crack that is paid for;
+// 2013), more where the rim is near and little of the plate lies in many directions; what they leave goes into rings, and where it pays
+// for none, or for more than the finest ones, into spokes. Where there is no room for so many cells, rings are fewer and wider. `length_`: of crack that is paid for;
 // `furthest`: the rim; `most`: cells; chance and phase from 0 to 1.
 Rays raysFor(float length_, float speed, float side, float reach, float furthest, uint most, float chance, float phase) {
     float crowded = clamp(kDisk * side / reach, 1.0, 4.0), spokes = min(max(floor(kSpokes * crowded * sqrt(speed)), 3.0), float(max(most, 2u)));
     float innermost = min(side / kInnermost, 0.25 * reach);
+    spokes = spokesFor(spokes, length_, reach, innermost, furthest, most, phase);
     float left = length_ - spokes * reach;
     if (left < lengthOfRings(reach, innermost, kMostRatio, spokes))
         return Rays(uint(clamp(floor(length_ / reach + chance), 2.0, float(max(most, 2u)))), 1u, kMostRatio, innermost);

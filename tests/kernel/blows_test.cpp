@@ -136,14 +136,19 @@ TEST(Blows, HaveTheEnergyThatTwoBodiesHaveAlongTheNormalWhenTheyMeet) {
     EXPECT_NEAR(out.blows[0].blow.w, 0.05 / (9 * line.duration), 1e-5) << "the share of the step until they meet";
 }
 
-// The solver brakes what would meet in the substep after the step's last.
-TEST(Blows, AreThoseOfBodiesThatMeetBeforeTheSolverHasASay) {
-    for (const double gap : {0.0, 0.1, 0.149, 0.186, 0.192, 0.3}) {
-        Line line;
-        const uint32_t a = line.add(9, 3, true), wall = line.add(0, 0, false);
-        line.touch(a, wall, gap);
-        EXPECT_EQ(judge(line).blows[0].sides.x != 0, gap < 9 * (1.0 / 60 + 1.05 / 240)) << gap;
-    }
+// The solver brakes what would meet in the substep after the step's last. That is left alone, and is a blow of the next step; what
+// breaks nothing is the solver's.
+TEST(Blows, AreThoseOfBodiesThatMeetInTheStep) {
+    constexpr double kStep = 9 * (1.0 / 60), kBraked = 9 * (1.0 / 60 + 1.05 / 240);
+    for (const bool breaks : {true, false})
+        for (const double gap : {0.0, 0.1, 0.149, 0.151, 0.186, 0.192, 0.3}) {
+            Line line;
+            const uint32_t a = line.add(9, 3, breaks), wall = line.add(0, 0, false);
+            line.touch(a, wall, gap);
+            const Outcome out = judge(line);
+            EXPECT_EQ(out.blows[0].sides.x != 0, breaks && gap < kStep) << gap;
+            EXPECT_EQ(out.touches[0], breaks && gap < kBraked ? 0u : 1u) << gap;
+        }
 }
 
 // What lies behind a piece would be met if that were not there.

@@ -1,10 +1,13 @@
-// What breaks a body is what meets it first: of its own pieces, which lie behind each other, and of several bodies.
+// What breaks a body is what meets it first, of its own pieces, which lie behind each other, and of several bodies; where and when it does,
+// and only that.
 #include "modules/brittle/scene/scene_file.h"
 #include "tests/module/breaking_scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 
 namespace {
@@ -67,6 +70,53 @@ TEST(FirstBlows, OfTwoBodiesAreThoseOfTheOneThatComesFirst) {
         EXPECT_EQ(events[0].what.z, 1u) << dt;
         EXPECT_NEAR(events[0].blow.y, 5, 0.2) << dt << ", balls have facets";
     }
+}
+
+BodyDescription cube(const Double3& place, const char* material) {
+    BodyDescription body;
+    body.shape.size = {0.2, 0.2, 0.2};
+    body.place = place;
+    body.material = material;
+    return body;
+}
+
+// Edge over edge, in every phase of the step. The planes of the faces that come towards each other do meet.
+TEST(FirstBlows, NothingBreaksOnWhatItPassesBy) {
+    constexpr double kClear = 0.003, kHeight = 0.2 * std::numbers::sqrt2 + kClear;
+    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120})
+        for (const double ahead : {0.0, 0.02, 0.05, 0.09}) {
+            BodyDescription flies = cube({-0.77 - ahead, kHeight, 0}, "ice"), stands = cube({0, 0, 0}, "");
+            for (BodyDescription* body : {&flies, &stands})
+                body->turn = {0, 0, std::sin(std::numbers::pi / 8), std::cos(std::numbers::pi / 8)};
+            flies.velocity = {15, 0, 0};
+            stands.mass = 50;
+            SceneDescription scene = sceneOf({flies, stands}, false);
+            scene.effects = {"contacts", "friction", "impact_fracture", "events"};
+            scene.step.dt = dt;
+            const auto world = worldOf(scene);
+            EXPECT_TRUE(stepUntilItBreaks(*world, static_cast<uint32_t>(0.12 / dt)).empty()) << dt << ", " << ahead;
+            EXPECT_NEAR((*world->bodies())[0].velocity.x, 15, 1e-4) << dt << ", " << ahead << ", bumps into nothing";
+        }
+}
+
+// Also of what meets the wall just after a step is over, when the solver would brake it already.
+TEST(FirstBlows, TakePlaceOnTheSurfaceThatIsMet) {
+    constexpr double kDt = 1.0 / 120;
+    for (const double speed : {5.0, 18.0})
+        for (const double gap : {0.0002, 0.002, 0.005, 0.009, 0.012, 0.018}) {
+            BodyDescription flies = cube({-0.1 - gap - 4 * kDt * speed, 0, 0}, "ice"), wall = cube({0.5, 0, 0}, "");
+            flies.velocity = {speed, 0, 0};
+            wall.shape.size = {1, 2, 2};
+            wall.mass = 5000;
+            SceneDescription scene = sceneOf({flies, wall}, false);
+            scene.effects = {"contacts", "impact_fracture", "events"};
+            scene.step.dt = kDt;
+            const auto world = worldOf(scene);
+            const auto events = stepUntilItBreaks(*world, 10);
+            ASSERT_EQ(events.size(), 1u) << speed << ", " << gap;
+            EXPECT_NEAR(SECTOR_EDGE * events[0].sector.x + double{events[0].offset.x}, 0, 1e-5) << speed << ", " << gap;
+            EXPECT_NEAR(events[0].blow.y, speed, 1e-4 * speed) << speed << ", " << gap;
+        }
 }
 
 } // namespace

@@ -146,6 +146,30 @@ TEST(RadialPattern, HasSpokesToTheRimAndRingsBetween) {
     }
 }
 
+// Where the finest rings cost less than what is paid for, more spokes do; where there is no room for so many, the event says so.
+TEST(RadialPattern, TakesMoreSpokesOnceRingsAreFineEnough) {
+    for (const double speed : {10.0, 14.0, 18.0})
+        for (const uint32_t most : {40u, 1000u}) {
+            SceneDescription scene = paneAndBall(brittle::BreakPattern::Radial, false, speed);
+            scene.materials = {{"fine glass", "glass"}};
+            scene.materials[0].eta = 0.2;
+            scene.bodies[0].material = "fine glass";
+            brittle::WorldBudget budget;
+            budget.breaking.most_fragments = most;
+            budget.breaking.step_sites = budget.breaking.fragments = 1024;
+            const auto world = worldOf(scene, budget);
+            const auto events = stepUntilItBreaks(*world, 60);
+            ASSERT_EQ(events.size(), 1u);
+            const double paid_for = events[0].along.w, share = events[0].energies.z / events[0].blow.z;
+            EXPECT_GT(paid_for, 60) << speed;
+            EXPECT_LT(paid_for, 1000) << speed;
+            if (most < paid_for)
+                EXPECT_LE(events[0].made.x, most) << speed;
+            else
+                EXPECT_NEAR(share, 1, 0.15) << speed << ": cracks cost what is theirs";
+        }
+}
+
 std::set<uint64_t> hashesOfRuns(const SceneDescription& scene) {
     std::set<uint64_t> hashes;
     for (int run = 0; run < 2; ++run) {

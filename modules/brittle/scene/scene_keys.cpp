@@ -133,7 +133,7 @@ constexpr SceneKey kBudgetKeys[] = {
      "of the hulls of all of them; 0: 24 for each"},
     {"fragment_triangles", at<&BudgetDescription::fragment_triangles>, from(0, kMostElements), "",
      "of the surfaces of all of them; 0: 96 for each"},
-    {"most_fragments", at<&BudgetDescription::most_fragments>, from(0, kMostElements), "", "of one body; 0: 256"},
+    {"most_fragments", at<&BudgetDescription::most_fragments>, from(0, kMostElements), "", "of one body, of which there are never more than breaking_sites; 0: 256"},
     {"breaking_bodies", at<&BudgetDescription::breaking_bodies>, from(0, 256), "",
      "that break in one step, the others wait; 0: 16"},
     {"breaking_sites", at<&BudgetDescription::breaking_sites>, from(0, kMostElements), "", "of all of them together; 0: 512"},
