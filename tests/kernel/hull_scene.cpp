@@ -166,6 +166,7 @@ gpu::BodyState HullScene::stateOf(uint32_t body) const {
     state.offset = wordsOf(placed.place, 1);
     state.turn = wordsOf({q[0], q[1], q[2]}, q[3]);
     state.velocity = wordsOf(placed.velocity, 0);
+    state.spin = wordsOf(placed.spin, 0);
     return state;
 }
 

@@ -39,6 +39,7 @@ struct PlacedShape {
     Turn turn = kNoTurn;
     Place velocity = {0, 0, 0};
     std::array<int32_t, 3> sector = {0, 0, 0};
+    Place spin = {0, 0, 0};
 };
 
 struct HullScene {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace kernel_test {
 namespace {
@@ -61,6 +62,24 @@ TEST(SmallSweep, HullsThatOverlapAlreadyAreNotSwept) {
     ASSERT_EQ(m.info.x, 4u);
     EXPECT_NEAR(m.normal.x, 1, 1e-6);
     EXPECT_NEAR(m.points[0].arm_a.w, -.005, 1e-6);
+}
+
+// Edge over edge, 2 mm apart. Faces of both come towards each other's planes, and are gone before they meet.
+gpu::Manifold passing(const Place& velocity, const Place& spin) {
+    HullScene scene;
+    scene.add(boxShape({.05, .05, .05}));
+    const Turn on_edge = {0, 0, std::sin(std::numbers::pi / 8), std::cos(std::numbers::pi / 8)};
+    PlacedShape flies = {0, {-.006, .1 * std::numbers::sqrt2 + .002, 0}, on_edge, velocity};
+    flies.spin = spin;
+    scene.addPair({0, {0, 0, 0}, on_edge}, flies);
+    return manifoldsOf(scene)[0];
+}
+
+TEST(SmallSweep, WhatPassesNearAnEdgeDoesNotTouchIt) {
+    EXPECT_GT(passing({0, 0, 0}, {0, 0, 0}).info.x, 0u) << "as near as contacts are looked for";
+    EXPECT_EQ(passing({15, 0, 0}, {0, 0, 0}).info.x, 0u);
+    EXPECT_GT(passing({15, -15, 0}, {0, 0, 0}).info.x, 0u) << "goes down and hits";
+    EXPECT_GT(passing({15, 0, 0}, {0, 0, 3}).info.x, 0u) << "turns, and may hit";
 }
 
 // A solid about its first vertex, larger or smaller by a thousandth of its size on all sides.
