@@ -466,7 +466,7 @@ typedef struct BrittleImpact {
 typedef struct BrittleCounts {
     uint32_t struct_size;
     uint32_t bodies; /* slots of bodies, colliders and fragments that have ever held one */
-    uint32_t awake;  /* bodies that move and do not sleep */
+    uint32_t awake;  /* bodies that moved and did not sleep in the last step; what left the world in it counts */
     uint32_t pairs, contacts;
     uint32_t broken;       /* bodies since the beginning */
     uint32_t fragments;    /* that they became; some may have broken again */

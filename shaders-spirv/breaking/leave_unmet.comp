@@ -36,9 +36,9 @@ float shareOf(uint body) {
 bool isStopped(uint body) { return chosen[body] != NO_INDEX || uintBitsToFloat(shares[2u * body]) < 1.0; }
 
 // How far it comes along `direction`, the way to the other.
-float comesBy(Moving m, vec3 arm, vec3 direction, float share) {
-    float time = share * duration, falls = m.inverse_mass > 0.0 ? dot(gravity.xyz, direction) : 0.0;
-    return time * (dot(direction, velocityAt(m, arm)) + 0.5 * time * falls);
+float comesBy(Moving m, bool falls_, vec3 arm, vec3 direction, float share) {
+    float time = share * duration, fall = falls_ ? dot(gravity.xyz, direction) : 0.0;
+    return time * (dot(direction, velocityAt(m, arm)) + 0.5 * time * fall);
 }
 
 void main() {
@@ -52,7 +52,7 @@ void main() {
     bool is_met = false;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         float closed =
-            comesBy(pair.a, armOfA(p, k, pair), normal, share_a) + comesBy(pair.b, armOfB(p, k, pair), -normal, share_b);
+            comesBy(pair.a, pair.falls.x, armOfA(p, k, pair), normal, share_a) + comesBy(pair.b, pair.falls.y, armOfB(p, k, pair), -normal, share_b);
         is_met = is_met || separationNow(p, k, pair, normal) <= kSooner * max(closed, 0.0);
     }
     if (!is_met) touches[p] = 0u;

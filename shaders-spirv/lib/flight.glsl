@@ -14,8 +14,8 @@ Flight flightOf(uint body, bool moves, float time) {
     if (!moves) return Flight(b.turn, vec3(0.0), vec3(0.0), vec3(0.0));
     mat3 own = ownInverseInertia(shapes[body]);
     vec4 turn = turnFreely(vec3(own[0][0], own[1][1], own[2][2]), b.turn, b.momentum.xyz, time);
-    vec3 start = solver_bodies[body].velocity.xyz + 0.5 * gravity.w * gravity.xyz;
-    return Flight(turn, time * (start + 0.5 * time * gravity.xyz), start + time * gravity.xyz, spinOf(own, turn, b.momentum.xyz));
+    vec3 fall = (b.sector.w & BODY_BORNE) == 0 ? gravity.xyz : vec3(0.0), start = solver_bodies[body].velocity.xyz + 0.5 * gravity.w * fall;
+    return Flight(turn, time * (start + 0.5 * time * fall), start + time * fall, spinOf(own, turn, b.momentum.xyz));
 }
 
 vec3 velocityAt(Flight f, vec3 arm) { return f.velocity + cross(f.spin, arm); }

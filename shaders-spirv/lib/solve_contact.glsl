@@ -237,7 +237,7 @@ void bounceContact(uint c) {
     vec3 normal = solver_contacts[c].normal.xyz;
     float restitution = solver_contacts[c].tangent.w;
     Touching t = touchingOf(c, ids, normal.xyz);
-    float lag = 0.5 * gravity.w * approachOf(t.a.inverse_mass, t.b.inverse_mass, normal, gravity.xyz);
+    float lag = 0.5 * gravity.w * approachOf(t.a.inverse_mass > 0.0, t.b.inverse_mass > 0.0, normal, gravity.xyz);
     vec4 lacks = vec4(0.0), was = vec4(0.0);
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         SolverPoint p = solver_contacts[c].points[k];

@@ -14,6 +14,7 @@ GPU_NAMESPACE_BEGIN
 #define BODY_ABSENT 2 /* nothing is in this slot */
 #define BODY_HANGS 4  /* something that does not move held it back in the last step */
 #define BODY_ROUND 8  /* a ball, however few corners its hull has */
+#define BODY_BORNE 16 /* others carried it in the last step, or the air: it fell no faster than before */
 
 struct BodyState {
     ivec4 sector;  // w: BODY_* flags

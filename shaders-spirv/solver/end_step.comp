@@ -40,11 +40,18 @@ float shareFor(uint b, vec3 moved) {
     return min(uintBitsToFloat(shares[2u * b]), shareOfWay(moved, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
 }
 
-// Without what gravity gave it in the time that it has lost.
-vec3 velocityAtEnd(uint b, vec3 velocity, float lost) {
+// Of what gravity would have given it, in free fall 1.
+float gainedBy(uint b, vec3 velocity) {
     vec3 falling = gravity.w * gravity.xyz;
-    float gained = dot(velocity - bodies[b].velocity.xyz, falling) / max(dot(falling, falling), 1e-37);
-    return velocity - lost * clamp(gained, 0.0, 1.0) * falling;
+    return dot(velocity - bodies[b].velocity.xyz, falling) / max(dot(falling, falling), 1e-37);
+}
+
+// Without what gravity gave it in the time that it has lost.
+vec3 velocityAtEnd(vec3 velocity, float gained, float lost) { return velocity - lost * clamp(gained, 0.0, 1.0) * gravity.w * gravity.xyz; }
+
+void noteBorne(uint b, float gained) {
+    bool is_borne = gravity.xyz != vec3(0.0) && gained < 0.5;
+    bodies[b].sector.w = is_borne ? bodies[b].sector.w | BODY_BORNE : bodies[b].sector.w & ~BODY_BORNE;
 }
 
 // What hangs in something that does not move comes to rest there, or it would keep a speed with which it goes nowhere.
@@ -76,10 +83,11 @@ void main() {
         stop(b);
         return;
     }
-    float slowed = kCcd != 0u ? shareOfSpeed(b) : 1.0;
+    float slowed = kCcd != 0u ? shareOfSpeed(b) : 1.0, gained = gainedBy(b, s.velocity.xyz);
+    noteBorne(b, gained);
     moveTo(b, bodies[b].offset.xyz + share * s.moved.xyz);
     bodies[b].turn = turn;
-    bodies[b].velocity.xyz = slowed * velocityAtEnd(b, s.velocity.xyz, 1.0 - share);
+    bodies[b].velocity.xyz = slowed * velocityAtEnd(s.velocity.xyz, gained, 1.0 - share);
     bodies[b].spin.xyz = slowed * spin;
     bodies[b].momentum.xyz *= slowed;
 }

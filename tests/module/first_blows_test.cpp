@@ -55,6 +55,26 @@ TEST(FirstBlows, StepsDoNotDecideHowHardAVaseFalls) {
     expectAlikeInStepsOfAnyLength(*scene, 0.01, 0.05);
 }
 
+// The pane is carried, and does not fall along with the ball.
+TEST(FirstBlows, StepsDoNotDecideHowHardWhatLiesOnOthersIsHit) {
+    std::vector<BodyDescription> bodies(3);
+    for (size_t k : {0u, 1u}) {
+        bodies[k].shape.size = {0.04, 0.2, 0.04};
+        bodies[k].place = {k == 0 ? -0.14 : 0.14, 0.1, 0};
+    }
+    bodies[2].shape.size = {0.3, 0.006, 0.2};
+    bodies[2].place = {0, 0.203, 0};
+    bodies[2].material = "glass";
+    for (const double height : {0.86, 0.9, 0.93}) {
+        BodyDescription dropped = ball({0.02, height, 0.01}, "");
+        dropped.shape.radius = 0.04;
+        dropped.mass = 1;
+        SceneDescription scene = sceneOf(bodies);
+        scene.bodies.push_back(dropped);
+        expectAlikeInStepsOfAnyLength(scene, 0.01, 0.05);
+    }
+}
+
 // Within a step of 1/30 s both would; the slower one is nearer.
 TEST(FirstBlows, OfTwoBodiesAreThoseOfTheOneThatComesFirst) {
     for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {

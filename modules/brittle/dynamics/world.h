@@ -37,7 +37,7 @@ struct WorldBudget {
 struct WorldCounts {
     uint32_t bodies = 0, pieces = 0, pairs = 0, contacts = 0;
     uint32_t fresh = 0;     // pairs whose points were found anew
-    uint32_t awake = 0;     // bodies that move and do not sleep
+    uint32_t awake = 0;     // bodies that moved and did not sleep in the last step; what left the world in it counts
     uint32_t groups = 0;    // workgroups that bodies, pairs, contacts and colors were dispatched over; none while all sleep
     uint32_t colors = 0;    // in use
     uint32_t colorless = 0; // contacts for which there was no color left; they are solved one by one
