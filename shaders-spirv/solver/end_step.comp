@@ -40,17 +40,18 @@ float shareFor(uint b, vec3 moved) {
     return min(uintBitsToFloat(shares[2u * b]), shareOfWay(moved, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
 }
 
+vec3 falling = gravity.w * gravity.xyz; // in the step
+
 // Of what gravity would have given it, in free fall 1.
 float gainedBy(uint b, vec3 velocity) {
-    vec3 falling = gravity.w * gravity.xyz;
     return dot(velocity - bodies[b].velocity.xyz, falling) / max(dot(falling, falling), 1e-37);
 }
 
 // Without what gravity gave it in the time that it has lost.
-vec3 velocityAtEnd(vec3 velocity, float gained, float lost) { return velocity - lost * clamp(gained, 0.0, 1.0) * gravity.w * gravity.xyz; }
+vec3 velocityAtEnd(vec3 velocity, float gained, float lost) { return velocity - lost * clamp(gained, 0.0, 1.0) * falling; }
 
 void noteBorne(uint b, float gained) {
-    bool is_borne = gravity.xyz != vec3(0.0) && gained < 0.5;
+    bool is_borne = falling != vec3(0.0) && gained < 0.5;
     bodies[b].sector.w = is_borne ? bodies[b].sector.w | BODY_BORNE : bodies[b].sector.w & ~BODY_BORNE;
 }
 
