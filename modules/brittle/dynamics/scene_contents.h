@@ -13,13 +13,13 @@ namespace brittle {
 
 // The fracture that cuts what the scene has to cut, with kernels of that group size (see Fracture::create); nullptr where no body has
 // cells or is a mesh. Errors: those of Fracture::create.
-engine::Result<std::unique_ptr<Fracture>> fractureFor(const SceneDescription& scene, engine::Device& device, uint32_t group_size = 0);
+engine::Result<std::unique_ptr<Fracture>> fractureFor(const SceneDescription& scene, engine::Device& device,
+                                                      uint32_t group_size = 0);
 
 // Bodies in the order of the scene, then its colliders. A body that is broken from the start is a body for each of its cells,
 // one that is not has a piece for each. A plane is the upper side of a box a kilometer wide. `fracture` is that of
-// fractureFor. What the bodies look like goes into `surfaces` where it is not nullptr: fragments
-// as they were cut, models as they are, hulls for all else. Errors: BadInput, with the body's name; what breaking it fails
-// with.
+// fractureFor. What the bodies look like goes into `surfaces` where it is not nullptr: fragments as they were cut, models as
+// they are, hulls for all else. Errors: BadInput, with the body's name; what breaking it fails with.
 engine::Result<WorldContents> contentsOf(const SceneDescription& scene, const std::filesystem::path& folder, Fracture* fracture,
                                          WorldSurfaces* surfaces = nullptr);
 
