@@ -2,12 +2,10 @@
 #include "engine/reload/kernel_times.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "tests/module/breaking_scenes.h"
-#include "tests/reload/source_folder.h"
+#include "tests/reload/following.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
-
-#include <thread>
 
 using namespace reload_test;
 
@@ -81,21 +79,24 @@ TEST_F(ReloadTool, SaysThatThereIsNoScreenForAWindow) {
 
 TEST_F(ReloadTool, StepsASceneOnWhileItIsEdited) {
     copyKernels();
-    const std::jthread editor([this] {
-        std::this_thread::sleep_for(std::chrono::seconds(3));
-        const std::string name = "solver/end_step.comp", source = read(name);
-        write(name, replaced(source, "uint b = flatIndex();", "uint b = ;"));
-        std::this_thread::sleep_for(std::chrono::seconds(1));
-        write(name,
-              replaced(source, "(bodies[b].sector.w & BODY_HANGS) != 0", "(bodies[b].sector.w & BODY_HANGS) == BODY_HANGS"));
-    });
-    const support::Outcome outcome = run({"--scene", "stack_10", "--steps", "600", folder().string()});
+    const std::string name = "solver/end_step.comp", source = read(name);
+    support::RunningProgram tool("shader_reload", {"--scene", "stack_10", "--steps", "1000000", folder().string()});
+    ASSERT_TRUE(tool.says("watching", kPatience));
+    write(name, replaced(source, "uint b = flatIndex();", "uint b = ;"));
+    EXPECT_TRUE(tool.says("kept the last good end_step", kPatience));
+    write(name,
+          replaced(source, "(bodies[b].sector.w & BODY_HANGS) != 0", "(bodies[b].sector.w & BODY_HANGS) == BODY_HANGS"));
+    EXPECT_TRUE(tool.says("reloaded end_step", kPatience));
+    EXPECT_TRUE(tool.says("  end_step: ", kPatience)); // its times before and after
+    tool.interrupt();
+    const support::Outcome outcome = tool.wait();
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(has(outcome.out, "reloaded end_step")) << outcome.out;
-    EXPECT_TRUE(has(outcome.out, "kept the last good end_step")) << outcome.out;
     EXPECT_TRUE(has(outcome.err, path("solver/end_step.comp") + ":")) << outcome.err;
-    EXPECT_TRUE(has(outcome.out, "end_step: ")) << outcome.out;
-    EXPECT_TRUE(has(outcome.out, "600 steps, state " + hashAfter("stack_10", 600))) << outcome.out;
+    const size_t ending = outcome.out.find(" steps, state ");
+    ASSERT_NE(ending, std::string::npos) << outcome.out;
+    const std::string steps = outcome.out.substr(outcome.out.rfind('\n', ending) + 1);
+    const auto count = static_cast<uint32_t>(std::stoul(steps));
+    EXPECT_EQ(steps, std::to_string(count) + " steps, state " + hashAfter("stack_10", count) + "\n");
 }
 
 TEST(KernelTimes, AreMediansBeforeAndAfter) {

@@ -2,22 +2,39 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <csignal>
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <iterator>
+#include <spawn.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace support {
 namespace {
 
-std::string quoted(const std::string& word) {
-    std::string result = "'";
-    for (const char c : word)
-        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
+// What is set comes first: a later setting of the same name is left out.
+std::vector<std::string> environmentWith(const std::vector<std::string>& settings) {
+    std::vector<std::string> all = settings;
+    for (char** inherited = environ; *inherited != nullptr; ++inherited) {
+        const size_t name = std::strcspn(*inherited, "=") + 1;
+        const auto is_same = [&](const std::string& setting) { return setting.compare(0, name, *inherited, name) == 0; };
+        if (std::ranges::none_of(settings, is_same)) all.emplace_back(*inherited);
+    }
+    return all;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
 }
 
 } // namespace
@@ -27,24 +44,67 @@ std::string fileBytes(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
+                               const std::vector<std::string>& environment) {
+    static std::atomic<int> runs = 0;
+    base_ = testing::TempDir() + "brittle_run_" + std::to_string(getpid()) + "_" + std::to_string(runs++);
+    std::vector<std::string> words{std::string(BRITTLE_BINARY_DIR) + "/" + program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> settings = environmentWith(environment);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    constexpr int kFresh = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, (base_ + ".out").c_str(), kFresh, 0600);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, (base_ + ".err").c_str(), kFresh, 0600);
+    const int failed =
+        posix_spawn(&pid_, words[0].c_str(), &files, nullptr, pointersTo(words).data(), pointersTo(settings).data());
+    posix_spawn_file_actions_destroy(&files);
+    if (failed == 0) return;
+    pid_ = -1;
+    ADD_FAILURE() << words[0] << ": " << std::strerror(failed);
+}
+
+RunningProgram::~RunningProgram() {
+    if (pid_ != -1) {
+        kill(pid_, SIGKILL);
+        hasEnded(true);
+    }
+    std::remove((base_ + ".out").c_str());
+    std::remove((base_ + ".err").c_str());
+}
+
+bool RunningProgram::hasEnded(bool wait) {
+    if (pid_ == -1) return true;
+    int status = 0;
+    if (waitpid(pid_, &status, wait ? 0 : WNOHANG) != pid_) return false;
+    pid_ = -1;
+    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return true;
+}
+
+bool RunningProgram::says(const std::string& part, std::chrono::seconds patience) {
+    const auto until = std::chrono::steady_clock::now() + patience;
+    for (;;) {
+        const bool is_last_look = hasEnded(false) || std::chrono::steady_clock::now() > until;
+        if (fileBytes(base_ + ".out").find(part) != std::string::npos) return true;
+        if (is_last_look) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+}
+
+void RunningProgram::interrupt() const {
+    if (pid_ != -1) kill(pid_, SIGINT);
+}
+
+Outcome RunningProgram::wait() {
+    hasEnded(true);
+    return {exit_code_, fileBytes(base_ + ".out"), fileBytes(base_ + ".err")};
+}
+
 Outcome runProgram(const std::string& program, const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment) {
-    static std::atomic<int> runs = 0;
-    const std::string base = testing::TempDir() + "brittle_run_" + std::to_string(getpid()) + "_" + std::to_string(runs++);
-    std::string command = "env";
-    for (const std::string& setting : environment)
-        command += " " + quoted(setting);
-    command += " " + quoted(std::string(BRITTLE_BINARY_DIR) + "/" + program);
-    for (const std::string& argument : arguments)
-        command += " " + quoted(argument);
-    command += " >" + quoted(base + ".out") + " 2>" + quoted(base + ".err") + " </dev/null";
-    const int status = std::system(command.c_str());
-    // The shell tells of a signal by an exit code above 128.
-    const bool ended = WIFEXITED(status) && WEXITSTATUS(status) <= 128;
-    Outcome outcome{ended ? WEXITSTATUS(status) : -1, fileBytes(base + ".out"), fileBytes(base + ".err")};
-    std::remove((base + ".out").c_str());
-    std::remove((base + ".err").c_str());
-    return outcome;
+    return RunningProgram(program, arguments, environment).wait();
 }
 
 } // namespace support

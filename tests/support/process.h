@@ -1,7 +1,9 @@
 // Runs a program of the build and catches what it says.
 #pragma once
 
+#include <chrono>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace support {
@@ -11,7 +13,29 @@ struct Outcome {
     std::string out, err;
 };
 
-// `program` stands in the build's bin folder; `environment` holds NAME=VALUE. Nothing on standard input.
+// A program at work, for tests that talk with it. It stands in the build's bin folder; `environment` holds NAME=VALUE. Nothing
+// on standard input.
+class RunningProgram {
+public:
+    RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& environment = {});
+    ~RunningProgram();
+    RunningProgram(const RunningProgram&) = delete;
+    RunningProgram& operator=(const RunningProgram&) = delete;
+
+    // Waits until its standard output holds this; false where it ends or the patience does before.
+    bool says(const std::string& part, std::chrono::seconds patience);
+    void interrupt() const; // as Ctrl+C does
+    Outcome wait();
+
+private:
+    bool hasEnded(bool wait);
+
+    std::string base_;
+    pid_t pid_ = -1;
+    int exit_code_ = -1;
+};
+
 Outcome runProgram(const std::string& program, const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {});
 
