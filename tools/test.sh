@@ -38,7 +38,7 @@ step build tools/build.sh release all
 if $failed; then exit 1; fi
 step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
 step validation ctest --preset validation --label-regex '^validation$' --no-tests=error --parallel 2
-step build-asan tools/build.sh asan brittle_tests_abi brittle_tests_engine brittle_tests_godot brittle_tests_hard brittle_tests_kernel \
+step build-asan tools/build.sh asan brittle_tests_abi brittle_tests_engine brittle_tests_godot brittle_tests_hard \
   brittle_tests_module brittle_tests_reference brittle_tests_reload
 step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
 step build-fuzz tools/build.sh fuzz
