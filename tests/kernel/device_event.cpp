@@ -67,8 +67,9 @@ DeviceEvent::DeviceEvent(const brittle::PreparedMesh& solid, const brittle::Frac
         if (!capacity_.grow(words_.data())) break;
     }
     EXPECT_EQ(words_[STATUS_FAILED], 0u);
-    for (const uint32_t trouble : {STATUS_BAD_CELLS, STATUS_BAD_CLIP, STATUS_BAD_LOOKUP, STATUS_BAD_DEPTH, STATUS_BAD_CAP,
-                                   STATUS_BAD_UNION, STATUS_BAD_WELD, STATUS_UNPLACED, STATUS_ROUNDS_LEFT})
+    for (const uint32_t trouble :
+         std::initializer_list<uint32_t>{STATUS_BAD_CELLS, STATUS_BAD_CLIP, STATUS_BAD_LOOKUP, STATUS_BAD_DEPTH, STATUS_BAD_CAP,
+                                         STATUS_BAD_UNION, STATUS_BAD_WELD, STATUS_UNPLACED, STATUS_ROUNDS_LEFT})
         EXPECT_EQ(words_[trouble], 0u) << "status word " << trouble;
 }
 

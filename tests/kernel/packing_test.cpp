@@ -130,7 +130,7 @@ TEST(Packing, OfManyUniformSites) { expectDiagram(hard::uniformSites(1234, 9)); 
 
 TEST(Packing, OfTies) {
     expectDiagram(hard::cubicLattice(5));
-    for (const size_t set : {7, 10, 16})
+    for (const size_t set : {7u, 10u, 16u})
         expectDiagram(hard::hardSites()[set]);
 }
 

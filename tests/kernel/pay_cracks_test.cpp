@@ -167,7 +167,7 @@ TEST(Cracks, OfTwoThatBreakEachOtherArePaidForTogether) {
 
 TEST(Cracks, OfWhatStaysWholeCostNothingAndItIsLeftAloneForAWhile) {
     Chance chance(8);
-    for (const uint32_t why : {WHOLE_NO_ROOM, WHOLE_TOO_DEAR, WHOLE_ONE_PIECE}) {
+    for (const uint32_t why : std::initializer_list<uint32_t>{WHOLE_NO_ROOM, WHOLE_TOO_DEAR, WHOLE_ONE_PIECE}) {
         Crash crash = randomCrash(chance, true);
         crash.hits[0].cracks = why == WHOLE_TOO_DEAR ? -0.05 : why == WHOLE_ONE_PIECE ? 0 : 0.05;
         crash.hits[0].refused = why == WHOLE_NO_ROOM;

@@ -80,7 +80,8 @@ private:
         upload.copy(commands, *staging);
         brittle::Recorder recorder(commands, kernels_, counts, args);
         recorder.clear({args});
-        for (const uint32_t count : {COUNT_BREAKING, COUNT_SOUP_TRIANGLES, COUNT_SOUP_CORNERS, COUNT_ASKED_SITES})
+        for (const uint32_t count :
+             std::initializer_list<uint32_t>{COUNT_BREAKING, COUNT_SOUP_TRIANGLES, COUNT_SOUP_CORNERS, COUNT_ASKED_SITES})
             recorder.publish(count, 1u << 30);
         brittle::recordGather(recorder, room_, b, records, pool);
         brittle::recordBreakingSites(recorder, b, records, sites_, placed_);

@@ -36,7 +36,7 @@ TEST(World, CubesThatSlideAndTwistMoveAsTheReferenceSays) {
     const auto boxes = support::stackedBoxes(scene);
     ASSERT_TRUE(boxes);
     reference::RigidStack stack(*boxes, support::stackSettings(scene));
-    for (const uint32_t steps : {1, 9, 70}) {
+    for (const uint32_t steps : {1u, 9u, 70u}) {
         stepBoth(run, stack, steps);
         const support::StackDifference now = differenceOf(run, stack);
         EXPECT_LE(now.place, 1e-6) << "after another " << steps;

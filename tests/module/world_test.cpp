@@ -385,7 +385,7 @@ TEST(World, WithoutContactsBodiesFallThroughEachOther) {
     run(**world, 60);
     const auto bodies = (*world)->bodies();
     ASSERT_TRUE(bodies);
-    for (int k = 0; k < 3; ++k)
+    for (uint32_t k = 0; k < 3; ++k)
         EXPECT_NEAR((*bodies)[k].offset.y, 0.9 * k - 9.81 / 2, 1e-4);
     EXPECT_EQ(countsOf(**world).pairs, 0u);
 }

@@ -29,8 +29,8 @@ std::string reason() {
 class GlfwWindow : public SceneWindow {
 public:
     GlfwWindow(engine::Device& device, cli::StagedScene& staged, brittle::World& world)
-        : world_(world), cast_(world, staged.surfaces), spectacle_{device, staged.scene, staged.surfaces,
-                                                                   brittle::originOf(staged.contents.bodies)} {}
+        : cast_(world, staged.surfaces), spectacle_{device, staged.scene, staged.surfaces,
+                                                    brittle::originOf(staged.contents.bodies)} {}
     ~GlfwWindow() override {
         if (window_ != nullptr) glfwDestroyWindow(window_);
         glfwTerminate();
@@ -76,7 +76,6 @@ private:
         return Error{ErrorCode::BadInput, "the screen has no OpenGL that can show a picture"};
     }
 
-    brittle::World& world_;
     cli::BodyCast cast_;
     cli::Spectacle spectacle_;
     std::unique_ptr<cli::WorldPicture> picture_;
