@@ -1,4 +1,5 @@
 #include "modules/brittle/abi/boundary.h"
+#include "modules/brittle/dynamics/world_state.h"
 
 #include <cstring>
 
@@ -12,19 +13,12 @@ struct Head {
     uint64_t bodies = 0, colliders = 0, bytes = 0, hash = 0;
 };
 
-uint64_t hashOf(std::span<const std::byte> bytes) {
-    uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
-    for (const std::byte b : bytes)
-        hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
-    return hash;
-}
-
 Head headFor(const HostedWorld& world, std::span<const std::byte> state) {
     Head head;
     head.bodies = world.scene.bodies.size();
     head.colliders = world.scene.colliders.size();
     head.bytes = state.size();
-    head.hash = hashOf(state);
+    head.hash = brittle::hashOf(state);
     return head;
 }
 

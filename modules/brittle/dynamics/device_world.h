@@ -3,11 +3,8 @@
 
 #include "modules/brittle/breaking/breaking.h"
 #include "modules/brittle/dynamics/body_order.h"
-#include "modules/brittle/dynamics/step.h"
 #include "modules/brittle/dynamics/world.h"
 #include "modules/brittle/dynamics/world_state.h"
-#include "modules/brittle/fracture/group_size.h"
-#include "modules/brittle/fracture/upload.h"
 
 #include <map>
 #include <utility>

@@ -11,11 +11,12 @@ using engine::Result;
 
 namespace {
 
-uint64_t hashOf(std::span<const std::byte> bytes) {
-    uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
-    for (const std::byte b : bytes)
-        hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
-    return hash;
+// By the numbers that bodies were added with.
+template <typename Told, typename Number>
+void nameAsAdded(Told& told, const Number& bodyAsAdded) {
+    for (auto& event : told.events)
+        for (uint32_t* body : {&event.what.y, &event.what.z, &event.born.z, &event.born.w})
+            *body = bodyAsAdded(*body);
 }
 
 } // namespace
@@ -89,9 +90,7 @@ Result<Breaks> DeviceWorld::breaks() {
     if (!breaking_ || !has(Effect::Events)) return Breaks();
     auto told = breaking_->tell(heard_.breaks);
     if (!told) return told.error();
-    for (gpu::BreakEvent& event : told->events)
-        for (uint32_t* body : {&event.what.y, &event.what.z, &event.born.z, &event.born.w})
-            *body = bodyAsAdded(*body);
+    nameAsAdded(*told, [this](uint32_t slot) { return bodyAsAdded(slot); });
     return told;
 }
 
@@ -100,9 +99,7 @@ Result<Impacts> DeviceWorld::impacts() {
     if (!has(Effect::Contacts) || !has(Effect::Events)) return Impacts();
     auto told = hear<gpu::ImpactEvent>(device_, b_.impacts_told, b_.impacts, heard_.impacts);
     if (!told) return told.error();
-    for (gpu::ImpactEvent& event : told->events)
-        for (uint32_t* body : {&event.what.y, &event.what.z, &event.born.z, &event.born.w})
-            *body = bodyAsAdded(*body);
+    nameAsAdded(*told, [this](uint32_t slot) { return bodyAsAdded(slot); });
     return told;
 }
 

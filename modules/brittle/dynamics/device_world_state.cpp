@@ -2,7 +2,6 @@
 #include "modules/brittle/dynamics/device_world.h"
 
 #include "modules/brittle/dynamics/step_failure.h"
-#include "modules/brittle/dynamics/world_state.h"
 #include "modules/brittle/fracture/fetch.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "modules/brittle/dynamics/device_world.h"
 
 #include "modules/brittle/dynamics/step.h"
-#include "modules/brittle/fracture/group_size.h"
 
 #include <algorithm>
 

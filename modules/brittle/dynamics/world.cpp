@@ -1,6 +1,7 @@
 #include "modules/brittle/dynamics/world.h"
 
 #include "modules/brittle/dynamics/device_world.h"
+#include "modules/brittle/fracture/group_size.h"
 
 #include <algorithm>
 

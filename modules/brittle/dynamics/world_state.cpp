@@ -83,4 +83,11 @@ Result<void> writeState(engine::Device& device, std::span<const std::byte> state
     return upload.send(device);
 }
 
+uint64_t hashOf(std::span<const std::byte> bytes) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (const std::byte b : bytes)
+        hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
+    return hash;
+}
+
 } // namespace brittle

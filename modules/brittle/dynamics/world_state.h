@@ -6,6 +6,7 @@
 #include "engine/result.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,5 +33,7 @@ struct StateHead {
 engine::Result<StateHead> headOf(std::span<const std::byte> state, std::span<const StateView> views);
 // Of a state that was found sound, into views that have grown as far as it has. Where there is more room it begins the buffer.
 engine::Result<void> writeState(engine::Device& device, std::span<const std::byte> state, std::span<const StateView> views);
+
+uint64_t hashOf(std::span<const std::byte> bytes); // FNV-1a
 
 } // namespace brittle
