@@ -8,7 +8,6 @@ namespace engine {
 
 namespace {
 
-constexpr VkDeviceSize kMinAlignment = 256;
 constexpr VkDeviceSize kMinTake = 16;
 
 } // namespace
@@ -20,14 +19,13 @@ Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity,
     ScratchArena arena;
     arena.device_ = &device;
     arena.buffer_ = std::make_unique<Buffer>(std::move(*buffer));
-    arena.alignment_ = std::max(kMinAlignment, device.limits().minStorageBufferOffsetAlignment);
     return arena;
 }
 
 BufferView ScratchArena::take(VkDeviceSize bytes) {
     const VkDeviceSize size = (std::max(bytes, kMinTake) + 15) / 16 * 16; // kernels clear four words at a time
     const VkDeviceSize begin = used_;
-    used_ = (begin + size + alignment_ - 1) / alignment_ * alignment_;
+    used_ = (begin + size + kViewAlignment - 1) / kViewAlignment * kViewAlignment;
     peak_ = std::max(peak_, begin + size);
     if (begin + size > capacity()) {
         overflowed_ = true;

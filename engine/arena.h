@@ -40,7 +40,6 @@ private:
     // Under GPU-assisted validation every range is a buffer of its own until the next reset(), for the layer sees only
     // accesses past the end of a buffer.
     std::vector<std::unique_ptr<Buffer>> alone_;
-    VkDeviceSize alignment_ = 256;
     VkDeviceSize used_ = 0;
     VkDeviceSize peak_ = 0;
     bool overflowed_ = false;

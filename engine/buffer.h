@@ -53,6 +53,10 @@ private:
     std::string name_;
 };
 
+// Views that kernels are given begin at multiples of it: no device asks for more (Vulkan, minStorageBufferOffsetAlignment),
+// most for less, and what works on one has to work on all.
+constexpr VkDeviceSize kViewAlignment = 256;
+
 struct BufferView {
     const Buffer* buffer = nullptr;
     VkDeviceSize offset = 0;

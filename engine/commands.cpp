@@ -247,9 +247,8 @@ bool Commands::acceptsView(const Kernel& kernel, uint32_t slot, const BufferView
         why = "is empty";
     else if (!fits(view))
         why = "ends past its buffer \"" + view.buffer->name() + "\"";
-    else if (view.offset % limits.minStorageBufferOffsetAlignment != 0)
-        why = "starts at " + std::to_string(view.offset) + ", no multiple of " +
-              std::to_string(limits.minStorageBufferOffsetAlignment);
+    else if (view.offset % kViewAlignment != 0)
+        why = "starts at " + std::to_string(view.offset) + ", no multiple of " + std::to_string(kViewAlignment);
     else if (view.size > limits.maxStorageBufferRange)
         why = "has " + std::to_string(view.size) + " bytes, a binding holds " + std::to_string(limits.maxStorageBufferRange);
     if (why.empty()) return true;

@@ -11,7 +11,7 @@
 #endif
 layout(local_size_x = LANES) in;
 
-READS(0, uint, pair_count);
+READS(0, uint, counts);
 READS(1, uvec2, pairs);
 READS(2, PieceRecord, pieces);
 READS(3, BodyState, bodies);

@@ -17,7 +17,7 @@
 #include "shared/narrow_phase.h"
 
 FLAT_KERNEL;
-READS(0, uint, pair_count);
+READS(0, uint, counts);
 READS(1, uvec2, pairs);
 READS(2, PieceRecord, pieces);
 READS(3, BodyState, bodies);
@@ -191,7 +191,7 @@ void writeManifold(uint k, bool of_edges, Touch edges_touch) {
 
 void main() {
     uint k = flatIndex();
-    if (k >= min(pair_count[0], push.capacity)) return;
+    if (k >= min(counts[push.count_at], push.capacity)) return;
     pair = loadPair(pairs[k], push);
     found = axes[k];
     is_swept = found.shift.xyz != vec3(0.0);

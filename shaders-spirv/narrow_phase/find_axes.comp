@@ -89,7 +89,7 @@ AxisRecord foundBy(Seen seen) {
 
 void main() {
     uint k = flatGroup();
-    if (k >= min(pair_count[0], push.capacity) || isKnown(k)) return;
+    if (k >= min(counts[push.count_at], push.capacity) || isKnown(k)) return;
     loadHulls(k);
     Seen seen = searchAll();
     AxisRecord record = apartBy(seen.separation);

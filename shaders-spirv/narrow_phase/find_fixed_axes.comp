@@ -38,7 +38,7 @@ AxisRecord foundBy(Seen seen) {
 
 void main() {
     uint k = flatGroup();
-    if (k >= min(pair_count[0], push.capacity) || isKnown(k)) return;
+    if (k >= min(counts[push.count_at], push.capacity) || isKnown(k)) return;
     loadHulls(k);
     Seen seen = seeFixedAxes(min(push.fixed_axes, uint(SUPPORT_DIRECTIONS)));
     AxisRecord record = apartBy(seen.separation);

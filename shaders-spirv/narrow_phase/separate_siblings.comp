@@ -13,7 +13,7 @@
 #include "shared/solver.h"
 
 FLAT_KERNEL;
-READS(0, uint, pair_count);
+READS(0, uint, counts);
 READS(1, uvec2, pairs);
 READS(2, PieceRecord, pieces);
 READS(3, BodyState, bodies);
@@ -96,7 +96,7 @@ AxisRecord separated(HullPair pair, vec3 axis) {
 
 void main() {
     uint k = flatIndex();
-    if (k >= min(pair_count[0], push.capacity)) return;
+    if (k >= min(counts[push.count_at], push.capacity)) return;
     HullPair pair = loadPair(pairs[k], push);
     vec3 axis = areSiblings(pair) ? betweenSites(pair) : vec3(0.0);
     if (axis == vec3(0.0)) axis_records[k] = unknown();

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 1) in;
 layout(constant_id = FLAT_SIZE_ID) const uint flat_size = GROUP_SIZE;
-READS(0, uint, pair_count);
+READS(0, uint, counts);
 WRITES(1, uint, args);
 layout(push_constant) uniform Push { NarrowPhasePush push; };
 
@@ -17,7 +17,7 @@ void setArguments(uint at, uint groups) {
 }
 
 void main() {
-    uint pairs = min(pair_count[0], push.capacity);
+    uint pairs = min(counts[push.count_at], push.capacity);
     setArguments(0u, pairs);
     setArguments(4u, (pairs + flat_size - 1u) / flat_size);
 }

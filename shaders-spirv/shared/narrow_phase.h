@@ -27,12 +27,14 @@ struct NarrowPhasePush {
     float speculative; // m
     float duration;    // of the step in seconds; 0: nothing is swept
     uint capacity;     // pairs
-    uint fixed_axes; // directions, of find_fixed_axes
+    uint count_at;     // the word of the counts that says how many there are
+    uint fixed_axes;   // directions, of find_fixed_axes
+    uint unused[3];
 };
 
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::NarrowPhasePush) == 32);
+static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::NarrowPhasePush) == 48);
 #endif
 #endif

@@ -29,7 +29,7 @@ GPU_NAMESPACE_BEGIN
 #define COUNT_SOLVED_APART 28 /* workgroups that walk through contacts: one for every small island, one for what goes by color, if anything does */
 #define COUNT_BLOWS 29        /* contacts that break something in this step */
 #define COUNT_STRUCK 30       /* pairs, where there is such a contact, else 0 */
-#define COUNT_TURNING 32      /* contacts that may, of bodies that turn on the way to each other; bound on its own, so a multiple of 4 */
+#define COUNT_TURNING 32      /* contacts that may, of bodies that turn on the way to each other */
 
 // A bit of STATUS_FAILED: islands could not be joined.
 #define FAILED_ISLANDS 16u

@@ -204,11 +204,12 @@ std::vector<gpu::Manifold> manifoldsOf(const HullScene& scene, const NarrowPhase
     const engine::Buffer records = bufferOf(set.records), vertices = bufferOf(set.vertices), faces = bufferOf(set.faces),
                          corners = bufferOf(set.corners), edges = bufferOf(set.edges), piece = bufferOf(pieces),
                          body = bufferOf(states), pairs = bufferOf(scene.pairs),
-                         pair_count = bufferOf(std::vector<uint32_t>{count}), manifolds = blankBuffer<gpu::Manifold>(count),
-                         axes = blankBuffer<gpu::AxisRecord>(count), arguments = blankBuffer<uint32_t>(8),
+                         pair_count = bufferOf(std::vector<uint32_t>{0, 0, count}),
+                         manifolds = blankBuffer<gpu::Manifold>(count), axes = blankBuffer<gpu::AxisRecord>(count),
+                         arguments = blankBuffer<uint32_t>(8),
                          births = bufferOf(run.births.empty() ? std::vector<gpu::Birth>(1) : run.births),
                          steps = bufferOf(std::vector<uint32_t>{run.steps, 0, 0, 0});
-    brittle::NarrowPhaseInput input = {{records, vertices, faces, corners, edges}, piece, body, pairs, pair_count, count};
+    brittle::NarrowPhaseInput input = {{records, vertices, faces, corners, edges}, piece, body, pairs, pair_count, 2, count};
     if (!run.births.empty()) input.siblings = {births, steps};
     engine::KernelLibrary& library = run.kernels ? *run.kernels : kernels();
     const auto start = std::chrono::steady_clock::now();

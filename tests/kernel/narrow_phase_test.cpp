@@ -271,7 +271,7 @@ TEST(SmallManifold, OfNoPairsIsNone) {
 
 TEST(SmallNarrowPhase, RefusesOptionsThatMakeNoSense) {
     const engine::Buffer buffer = bufferOf(std::vector<uint32_t>(1024));
-    const brittle::NarrowPhaseInput input = {{buffer, buffer, buffer, buffer, buffer}, buffer, buffer, buffer, buffer, 4};
+    const brittle::NarrowPhaseInput input = {{buffer, buffer, buffer, buffer, buffer}, buffer, buffer, buffer, buffer, 0, 4};
     const auto record = [&](const brittle::NarrowPhaseOptions& options, uint64_t bytes) {
         engine::Commands commands(engine_test::device());
         EXPECT_TRUE(commands.begin());

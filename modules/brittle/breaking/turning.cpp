@@ -19,8 +19,9 @@ void recordPoses(const Step& s, const PassingBuffers& p, bool is_first) {
 
 // Gravity is in the speeds that the poses have.
 engine::Result<void> recordPosedPoints(const Step& s, const PassingBuffers& p) {
-    const engine::BufferView count = s.record.counts().sub(4 * COUNT_TURNING, 4);
-    return recordPoints(s, {s.b.hulls(), p.posed_pieces, p.posed_bodies, p.posed_pairs, count, s.b.sizes.pairs}, {0, 0, 0});
+    return recordPoints(
+        s, {s.b.hulls(), p.posed_pieces, p.posed_bodies, p.posed_pairs, s.record.counts(), COUNT_TURNING, s.b.sizes.pairs},
+        {0, 0, 0});
 }
 
 } // namespace

@@ -61,9 +61,8 @@ Result<void> recordSiblings(engine::Commands& commands, engine::KernelLibrary& l
     const auto kernel = library.get("separate_siblings");
     if (!kernel) return kernel.error();
     commands.dispatchIndirect(**kernel, output.arguments.sub(16, 12), push,
-                              {input.pair_count, input.pairs, input.pieces, input.bodies, input.hulls.records,
-                               input.hulls.vertices, input.hulls.faces, input.siblings->births, input.siblings->steps,
-                               output.axes});
+                              {input.counts, input.pairs, input.pieces, input.bodies, input.hulls.records, input.hulls.vertices,
+                               input.hulls.faces, input.siblings->births, input.siblings->steps, output.axes});
     return {};
 }
 
@@ -78,16 +77,16 @@ Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary
 
     const Float3& g = options.gravity;
     const gpu::NarrowPhasePush push = {
-        {g[0], g[1], g[2], 0}, options.speculative, options.duration, input.capacity, options.fixed_axes};
+        {g[0], g[1], g[2], 0}, options.speculative, options.duration, input.capacity, input.count_at, options.fixed_axes, {}};
     const HullPools& hulls = input.hulls;
-    commands.dispatchGroups(*kernels->size, 1, push, {input.pair_count, output.arguments});
+    commands.dispatchGroups(*kernels->size, 1, push, {input.counts, output.arguments});
     if (input.siblings)
         if (auto recorded = recordSiblings(commands, library, input, push, output); !recorded) return recorded;
     commands.dispatchIndirect(*kernels->axes, output.arguments.sub(0, 12), push,
-                              {input.pair_count, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
+                              {input.counts, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
                                hulls.faces, hulls.corners, hulls.edges, output.axes});
     commands.dispatchIndirect(*kernels->manifolds, output.arguments.sub(16, 12), push,
-                              {input.pair_count, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
+                              {input.counts, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
                                hulls.faces, hulls.corners, hulls.edges, output.axes, output.manifolds});
     return commands.status();
 }

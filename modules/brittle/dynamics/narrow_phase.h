@@ -34,11 +34,12 @@ struct NewSiblings {
 
 struct NarrowPhaseInput {
     HullPools hulls;
-    engine::BufferView pieces;     // gpu::PieceRecord
-    engine::BufferView bodies;     // gpu::BodyState
-    engine::BufferView pairs;      // two uint32_t each: pieces, the lower one first, of different bodies
-    engine::BufferView pair_count; // one uint32_t, on the device; at most `capacity` are looked at
-    uint32_t capacity = 0;         // pairs that `pairs` and the outputs have room for
+    engine::BufferView pieces; // gpu::PieceRecord
+    engine::BufferView bodies; // gpu::BodyState
+    engine::BufferView pairs;  // two uint32_t each: pieces, the lower one first, of different bodies
+    engine::BufferView counts; // uint32_t, on the device
+    uint32_t count_at = 0;     // which of them is the number of pairs; at most `capacity` are looked at
+    uint32_t capacity = 0;     // pairs that `pairs` and the outputs have room for
     std::optional<NewSiblings> siblings = std::nullopt;
 };
 

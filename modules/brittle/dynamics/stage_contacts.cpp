@@ -33,9 +33,8 @@ void recordRecall(const Step& s) {
 }
 
 engine::Result<void> recordFreshPoints(const Step& s) {
-    NarrowPhaseInput input = {
-        s.b.hulls(),    s.b.pieces, s.b.bodies, s.b.step.fresh_pairs, s.record.counts().sub(4 * COUNT_FRESH_PAIRS, 4),
-        s.b.sizes.pairs};
+    NarrowPhaseInput input = {s.b.hulls(),       s.b.pieces,        s.b.bodies,     s.b.step.fresh_pairs,
+                              s.record.counts(), COUNT_FRESH_PAIRS, s.b.sizes.pairs};
     if (s.has(Effect::ImpactFracture)) input.siblings = {s.b.births, s.b.steps};
     return recordPoints(s, input, toFloat(s.settings.gravity));
 }
