@@ -201,7 +201,8 @@ function priceList(workload, path) {
   const head = (name, ...more) => make("th", { scope: "col", class: "amount" }, name, more);
   const note = make("p", { class: "note" }, "Price list. Times: ", words(path + "/time_of"),
                     "; median, and below it the middle half. Memory: ", words(path + "/bytes_of"), ".");
-  return [note, make("div", { class: "scroll" }, make("table", { "aria-label": "Price list of " + workload.name },
+  const table = { class: workload.kinds.length > 5 ? "wide" : undefined, "aria-label": "Price list of " + workload.name };
+  return [note, make("div", { class: "scroll" }, make("table", table,
       make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Setting"), make("th", { scope: "col" }, "What one loses"), head("ms"), head("of the default’s"),
           workload.kinds.map((kind) => head(words(kindPath(kind) + "/name"),
                                             make("span", { class: "small" }, words(kindPath(kind) + "/unit")))),
