@@ -115,6 +115,36 @@ TEST(SmallAbiWorld, RefusesWhatIsNoDefinition) {
     EXPECT_EQ(brittleStartWorld(host, world), BRITTLE_BAD_VALUE) << "nothing is in it";
 }
 
+// Scenes call some fields otherwise, and say of turns and hulls what only files can.
+TEST(SmallAbiWorld, SaysWhichFieldIsWrongByItsName) {
+    const Hosting host;
+    BrittleWorld world = {0};
+    BrittleBody body = {0};
+    const auto of_world = [&](double BrittleWorldDef::* field) {
+        BrittleWorldDef def = plainDef();
+        def.*field = -1;
+        EXPECT_EQ(brittleCreateWorld(host, &def, &world), BRITTLE_BAD_VALUE);
+        return std::string(host.error());
+    };
+    const auto of_body = [&](auto&& change) {
+        BrittleBodyDef def = brittleDefaultBodyDef();
+        change(def);
+        EXPECT_EQ(brittleAddBody(host, world, &def, &body), BRITTLE_BAD_VALUE);
+        return std::string(host.error());
+    };
+    EXPECT_TRUE(of_world(&BrittleWorldDef::dust_lifetime).starts_with("'dust_lifetime' is -1"));
+    EXPECT_TRUE(of_world(&BrittleWorldDef::debris_below).starts_with("'debris_below' is -1"));
+    EXPECT_TRUE(of_world(&BrittleWorldDef::debris_after).starts_with("'debris_after' is -1"));
+    EXPECT_TRUE(of_world(&BrittleWorldDef::debris_fade).starts_with("'debris_fade' is -1"));
+    BrittleWorldDef def = plainDef();
+    MUST(host, brittleCreateWorld(host, &def, &world));
+    EXPECT_NE(of_body([](BrittleBodyDef& d) { d.position.x = kNan; }).find("'position' holds nan"), std::string::npos);
+    const std::string turn = of_body([](BrittleBodyDef& d) { d.rotation = {0, 0, 0, 0}; });
+    EXPECT_NE(turn.find("'rotation'"), std::string::npos) << turn;
+    EXPECT_EQ(turn.find("axis"), std::string::npos) << turn;
+    EXPECT_EQ(of_body([](BrittleBodyDef& d) { d.shape.kind = BRITTLE_SHAPE_HULL; }), "body 0: a hull needs 'points'");
+}
+
 TEST(SmallAbiWorld, AnswersWhatComesInTheWrongOrder) {
     const Hosting host;
     const Scene scene = makeScene(host, {brittleDefaultBodyDef()}, plainDef(), false);

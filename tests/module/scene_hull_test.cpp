@@ -2,6 +2,7 @@
 // the points span no solid.
 #include "modules/brittle/mesh/import.h"
 #include "modules/brittle/scene/hull/convex_hull.h"
+#include "modules/brittle/scene/hull/support_tree.h"
 #include "tests/reference/hull.h"
 #include "tests/support/shared_meshes.h"
 
@@ -248,6 +249,35 @@ TEST(SmallSceneHull, OfTooManyFacesIsLooserButHoldsThePoints) {
         const reference::Weight held = reference::weightOf(asReference(ball.hull));
         EXPECT_GT(held.volume, ball.measures.volume);
         EXPECT_LT(held.volume, 1.3 * 4 * M_PI / 3);
+    }
+}
+
+// Looking at every corner for every face would take a minute.
+TEST(SmallSceneHull, OfAHundredThousandPointsOnASphereIsMadeWithoutLookingAtThemAllForEveryFace) {
+    Dice dice(9);
+    const PointHull ball = expectHull(spherePoints(dice, 100'000));
+    EXPECT_GT(ball.notes.faces_in, 100'000u);
+    EXPECT_NEAR(ball.measures.volume, 4 * M_PI / 3, 1e-3);
+}
+
+double furthestAlong(const Double3& direction, const Points& points) {
+    double most = -1e300;
+    for (const Double3& p : points)
+        most = std::max(most, reference::dot(direction, p));
+    return most;
+}
+
+TEST(SmallSceneHull, ReachesAsFarAsTheFurthestPointToTheBit) {
+    EXPECT_EQ(SupportTree({}).support({1, 0, 0}), -1e300);
+    Dice dice(10);
+    for (const int count : {1, 2, 16, 17, 33, 1000}) {
+        Points points = spherePoints(dice, count);
+        points.insert(points.end(), {points[0], {0, 0, 0}, 3 * dice.inCube()});
+        const SupportTree tree(points);
+        for (int k = 0; k < 100; ++k) {
+            const Double3 d = k < 3 ? Double3{double(k == 0), double(k == 1), -double(k == 2)} : dice.onSphere();
+            EXPECT_EQ(tree.support(d), furthestAlong(d, points)) << count;
+        }
     }
 }
 

@@ -66,6 +66,8 @@ void checkDef(const BrittleContextDef& def) {
         throw Refusal(BRITTLE_WRONG_VERSION, "'vulkan' has another struct_size; begin with brittleDefaultContextDef");
     if ((def.allocator.allocate == nullptr) != (def.allocator.release == nullptr))
         throw Refusal(BRITTLE_BAD_VALUE, "an allocator allocates and releases: give both functions or neither");
+    if ((def.vulkan.lock_queue == nullptr) != (def.vulkan.unlock_queue == nullptr))
+        throw Refusal(BRITTLE_BAD_VALUE, "what locks a queue unlocks it: give 'lock_queue' and 'unlock_queue' or neither");
 }
 
 BrittleContext* makeContext(const BrittleContextDef& def) {

@@ -1,5 +1,6 @@
 #include "modules/brittle/abi/hosted_world.h"
 
+#include "modules/brittle/abi/field_names.h"
 #include "modules/brittle/abi/id_table.h"
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/dynamics/scene_settings.h"
@@ -62,7 +63,7 @@ World& HostedWorld::running() {
 
 void HostedWorld::start(engine::Device& device) {
     mustNotRun();
-    orRefuse(checkScene(scene));
+    orRefuseFields(checkScene(scene));
     constexpr uint64_t kUsualFragments = 1024;
     if (originalCount() + std::max<uint64_t>(scene.budgets.fragments, kUsualFragments) >= kColliders)
         throw Refusal(BRITTLE_CAPACITY, "a world has at most 2 million bodies, colliders and fragments together");

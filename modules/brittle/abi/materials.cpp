@@ -1,4 +1,5 @@
 #include "modules/brittle/abi/boundary.h"
+#include "modules/brittle/abi/field_names.h"
 #include "modules/brittle/scene/check_scene.h"
 
 namespace {
@@ -29,7 +30,7 @@ uint64_t addMaterial(BrittleContext& c, MaterialDescription material) {
     brittle::SceneDescription scene;
     scene.bodies.emplace_back();
     scene.materials = {material};
-    orRefuse(brittle::checkScene(scene));
+    orRefuseFields(brittle::checkScene(scene));
     return c.materials.add(std::move(material));
 }
 

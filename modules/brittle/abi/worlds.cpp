@@ -1,5 +1,6 @@
 #include "modules/brittle/abi/boundary.h"
 #include "modules/brittle/abi/conversions.h"
+#include "modules/brittle/abi/field_names.h"
 #include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/scene/check_scene.h"
 
@@ -11,7 +12,7 @@ using brittle::SceneDescription;
 // A scene has a body, and of a world that is filled bit by bit only what is new is checked.
 void checkWith(SceneDescription scene) {
     scene.bodies = {brittle::BodyDescription()};
-    orRefuse(brittle::checkScene(scene));
+    orRefuseFields(brittle::checkScene(scene));
 }
 
 void checkCollider(const brittle::ColliderDescription& collider) {
@@ -29,7 +30,7 @@ BrittleResult brittleCreateWorld(BrittleContext* context, const BrittleWorldDef*
         SceneDescription scene = sceneOf(d);
         checkWith(scene);
         auto settings = orRefuse(brittle::settingsOf(scene));
-        orRefuse(brittle::checkSettings(settings));
+        orRefuseFields(brittle::checkSettings(settings));
         out.id = c.worlds.add(std::move(scene), d, &c.memory);
         c.worlds.at(out.id).setTag(out.id);
     });
@@ -50,7 +51,7 @@ BrittleResult brittleAddBody(BrittleContext* context, BrittleWorld world, const 
         BrittleBody& out = needed(body, "body");
         w.mustNotRun();
         auto described = bodyOf(c, w, d);
-        orRefuse(brittle::checkBody(described, w.scene.bodies.size(), w.scene.materials));
+        orRefuseFields(brittle::checkBody(described, w.scene.bodies.size(), w.scene.materials));
         w.scene.bodies.push_back(std::move(described));
         out = w.bodyId(w.bodyCount() - 1, 0);
     });

@@ -4,6 +4,7 @@
 #include "modules/brittle/scene/hull/hull_points.h"
 #include "modules/brittle/scene/hull/hull_simplify.h"
 #include "modules/brittle/scene/hull/qhull_faces.h"
+#include "modules/brittle/scene/hull/support_tree.h"
 
 #include <algorithm>
 #include <map>
@@ -50,12 +51,10 @@ void order(std::vector<PointFace>& faces, const std::vector<Double3>& vertices) 
     std::sort(faces.begin(), faces.end(), [](const PointFace& a, const PointFace& b) { return a.loop < b.loop; });
 }
 
-void addFace(ConvexHull& hull, const PointFace& from) {
+void addFace(ConvexHull& hull, const PointFace& from, const SupportTree& vertices) {
     ConvexHull::Face face;
     face.normal = normalized(areaVector(hull.vertices, from.loop), from.normal);
-    face.height = -1e300;
-    for (const Double3& v : hull.vertices)
-        face.height = std::max(face.height, dot(face.normal, v));
+    face.height = vertices.support(face.normal);
     face.first_corner = static_cast<uint32_t>(hull.corners.size());
     face.corner_count = static_cast<uint32_t>(from.loop.size());
     hull.corners.insert(hull.corners.end(), from.loop.begin(), from.loop.end());
@@ -91,8 +90,9 @@ engine::Result<ConvexHull> assemble(const std::vector<Double3>& points, std::vec
     ConvexHull hull;
     hull.vertices = takeCorners(points, faces);
     order(faces, hull.vertices);
+    const SupportTree vertices(hull.vertices);
     for (const PointFace& face : faces)
-        addFace(hull, face);
+        addFace(hull, face, vertices);
     if (!linkEdges(hull)) return notMade("its faces do not close up");
     return hull;
 }

@@ -1,0 +1,26 @@
+#include "modules/brittle/abi/field_names.h"
+
+#include <string_view>
+
+namespace brittle::abi {
+namespace {
+
+struct Name {
+    std::string_view key, field;
+};
+
+// Keys of files whose fields are called otherwise, and what only files can say.
+constexpr Name kNames[] = {{"'place'", "'position'"},         {"'turn'", "'rotation'"},
+                           {", or an axis and degrees", ""},  {"needs 'points' or a 'file'", "needs 'points'"},
+                           {"'lifetime'", "'dust_lifetime'"}, {"'below'", "'debris_below'"},
+                           {"'after'", "'debris_after'"},     {"'fade'", "'debris_fade'"}};
+
+} // namespace
+
+std::string inFieldNames(std::string message) {
+    for (const auto& [key, field] : kNames)
+        if (const size_t at = message.find(key); at != std::string::npos) message.replace(at, key.size(), field);
+    return message;
+}
+
+} // namespace brittle::abi
