@@ -143,6 +143,8 @@ TEST(SmallAbiWorld, SaysWhichFieldIsWrongByItsName) {
     EXPECT_NE(turn.find("'rotation'"), std::string::npos) << turn;
     EXPECT_EQ(turn.find("axis"), std::string::npos) << turn;
     EXPECT_EQ(of_body([](BrittleBodyDef& d) { d.shape.kind = BRITTLE_SHAPE_HULL; }), "body 0: a hull needs 'points'");
+    const std::string held = of_body([](BrittleBodyDef& d) { d.is_fixed = 1, d.spin.x = 1; });
+    EXPECT_NE(held.find("has 'is_fixed' = 1 and a 'velocity' or a 'spin'"), std::string::npos) << held;
 }
 
 TEST(SmallAbiWorld, AnswersWhatComesInTheWrongOrder) {
