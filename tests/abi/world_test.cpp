@@ -120,7 +120,7 @@ TEST(SmallAbiWorld, SaysWhichFieldIsWrongByItsName) {
     const Hosting host;
     BrittleWorld world = {0};
     BrittleBody body = {0};
-    const auto of_world = [&](double BrittleWorldDef::* field) {
+    const auto of_world = [&](double BrittleWorldDef::*field) {
         BrittleWorldDef def = plainDef();
         def.*field = -1;
         EXPECT_EQ(brittleCreateWorld(host, &def, &world), BRITTLE_BAD_VALUE);

@@ -10,11 +10,15 @@ struct Name {
 };
 
 // Keys of files whose fields are called otherwise, and what only files can say.
-constexpr Name kNames[] = {{"'place'", "'position'"},         {"'turn'", "'rotation'"},
-                           {", or an axis and degrees", ""},  {"needs 'points' or a 'file'", "needs 'points'"},
+constexpr Name kNames[] = {{"'place'", "'position'"},
+                           {"'turn'", "'rotation'"},
+                           {", or an axis and degrees", ""},
+                           {"needs 'points' or a 'file'", "needs 'points'"},
                            {"is 'fixed' and has a", "has 'is_fixed' = 1 and a"},
-                           {"'lifetime'", "'dust_lifetime'"}, {"'below'", "'debris_below'"},
-                           {"'after'", "'debris_after'"},     {"'fade'", "'debris_fade'"}};
+                           {"'lifetime'", "'dust_lifetime'"},
+                           {"'below'", "'debris_below'"},
+                           {"'after'", "'debris_after'"},
+                           {"'fade'", "'debris_fade'"}};
 
 } // namespace
 
