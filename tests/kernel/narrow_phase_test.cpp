@@ -284,5 +284,19 @@ TEST(SmallNarrowPhase, RefusesOptionsThatMakeNoSense) {
     EXPECT_EQ(record({}, 900).error().code, engine::ErrorCode::Capacity);
 }
 
+TEST(SmallNarrowPhase, RefusesACountThatLiesOutsideItsBuffer) {
+    const engine::Buffer buffer = bufferOf(std::vector<uint32_t>(1024));
+    brittle::NarrowPhaseInput input = {{buffer, buffer, buffer, buffer, buffer}, buffer, buffer, buffer, buffer, 1023, 4};
+    const auto record = [&] {
+        engine::Commands commands(engine_test::device());
+        EXPECT_TRUE(commands.begin());
+        return brittle::recordNarrowPhase(commands, kernels(), input, {}, {buffer, buffer, buffer}, false);
+    };
+    EXPECT_TRUE(record());
+    input.count_at = 1024;
+    EXPECT_EQ(record().error().code, engine::ErrorCode::Capacity);
+    EXPECT_NE(record().error().message.find("counts has 4096 of 4100 bytes"), std::string::npos);
+}
+
 } // namespace
 } // namespace kernel_test

@@ -116,9 +116,14 @@ public:
         commands.beginLabel("narrow_phase");
         brittle::NarrowPhaseOptions options;
         options.duration = 0; // nothing moves
-        auto recorded = brittle::recordNarrowPhase(
-            commands, kernels_, {{records_, vertices_, faces_, corners_, edges_}, pieces_, bodies_, pairs_, count_, capacity_},
-            options, {manifolds_, axes_, arguments_}, brittle::hasManyLanes(device_));
+        const brittle::NarrowPhaseInput input = {.hulls = {records_, vertices_, faces_, corners_, edges_},
+                                                 .pieces = pieces_,
+                                                 .bodies = bodies_,
+                                                 .pairs = pairs_,
+                                                 .counts = count_,
+                                                 .capacity = capacity_};
+        auto recorded = brittle::recordNarrowPhase(commands, kernels_, input, options, {manifolds_, axes_, arguments_},
+                                                   brittle::hasManyLanes(device_));
         if (!recorded) return recorded.error();
         commands.endLabel();
         if (auto done = commands.submitAndWait(); !done) return done.error();

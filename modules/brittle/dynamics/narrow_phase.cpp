@@ -34,6 +34,7 @@ Result<void> checkRoom(const NarrowPhaseInput& input, const NarrowPhaseOutput& o
                                               " pairs; make it larger"};
     };
     const uint64_t pairs = input.capacity;
+    if (auto fits = room("counts", input.counts, 4 * (uint64_t{input.count_at} + 1)); !fits) return fits;
     if (auto fits = room("pairs", input.pairs, pairs * 8); !fits) return fits;
     if (auto fits = room("manifolds", output.manifolds, pairs * sizeof(gpu::Manifold)); !fits) return fits;
     if (auto fits = room("axes", output.axes, pairs * sizeof(gpu::AxisRecord)); !fits) return fits;
