@@ -9,6 +9,7 @@
 #include "shared/body.h"
 #include "shared/breaking.h"
 #include "shared/contact.h"
+#include "shared/material.h"
 #include "shared/narrow_phase.h"
 #include "shared/solver.h"
 
@@ -25,6 +26,9 @@ WRITES(8, BodyState, posed_bodies);
 WRITES(9, PieceRecord, posed_pieces);
 WRITES(10, uvec2, posed_pairs);
 WRITES(11, AxisRecord, axes);
+READS(12, BreakableBody, breakable);
+READS(13, MaterialCard, cards);
+READS(14, uint, steps);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of a substep, s
     float duration;

@@ -40,20 +40,27 @@ const float kSwift = 0.1; // rad in a step: what turns by more may meet though i
 struct Meeting {
     BlowRecord record;
     float separation;
+    float closing; // m/s, on the way until then
     float time; // s until then, with points that overlap before now
 };
 
-// Where and when they meet if they go on as they do, as the bodies stand now.
-bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
-    Pair p = pairNow(pair, ids);
-    uint points = min(ids.z, MANIFOLD_POINTS);
-    vec4 separations = vec4(0.0), closings = vec4(kNoPoint);
-    for (uint k = 0u; k < points; k++) {
-        separations = withComponent(separations, k, separationNow(pair, k, p, normal));
-        closings = withComponent(closings, k, -partingAt(p, armOfA(pair, k, p), armOfB(pair, k, p), normal));
-    }
+// rad, of both together.
+float turnIn(float time, uvec4 ids) { return (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) * time; }
+
+bool turns(uvec4 ids) { return turnIn(duration, ids) > kTurned; }
+bool isSwift(uvec4 ids) { return turnIn(duration, ids) > kSwift; }
+
+// What turns may come in faster than it seems.
+BlowRecord mostOf(BlowRecord record, uvec4 ids) {
+    if (turns(ids)) record.blow.yz *= vec2(kFaster, kFaster * kFaster);
+    return record;
+}
+
+// Of a layer of their points; none where these do not come closer.
+bool layerMeets(uint pair, uvec4 ids, Pair p, vec3 normal, vec4 separations, vec4 closings, float limit, out Meeting met) {
     float separation;
-    vec4 weights = weightsOf(separations, closings, separation);
+    uint points = min(ids.z, MANIFOLD_POINTS);
+    vec4 weights = weightsOf(separations, closings, limit, separation);
     vec3 arm_a = vec3(0.0), arm_b = vec3(0.0);
     for (uint k = 0u; k < points; k++) {
         arm_a += weights[k] * armOfA(pair, k, p);
@@ -64,15 +71,32 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
     float now = partingAt(p, arm_a, arm_b, normal), then = speedOfMeeting(now, separation, p, normal, gravity);
     float apart = max(separation, 0.0), mean = -0.5 * (now + then);
     if (yield_ <= 0.0 || !(then < 0.0)) return false;
-    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation, separation / mean);
+    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation, mean, separation / mean);
     return true;
 }
 
-// rad, of both together.
-float turnIn(float time, uvec4 ids) { return (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) * time; }
+bool isBefore(Meeting a, Meeting b) { return isSooner(a.separation, a.closing, b.separation, b.closing); }
 
-bool turns(uvec4 ids) { return turnIn(duration, ids) > kTurned; }
-bool isSwift(uvec4 ids) { return turnIn(duration, ids) > kSwift; }
+// Where and when they meet if they go on as they do, as the bodies stand now.
+bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
+    Pair p = pairNow(pair, ids);
+    uint points = min(ids.z, MANIFOLD_POINTS);
+    vec4 separations = vec4(0.0), closings = vec4(kNoPoint);
+    for (uint k = 0u; k < points; k++) {
+        separations = withComponent(separations, k, separationNow(pair, k, p, normal));
+        closings = withComponent(closings, k, -partingAt(p, armOfA(pair, k, p), armOfB(pair, k, p), normal));
+    }
+    bool any_ = false;
+    float limit = kNoLimit;
+    for (uint k = 0u; k < kLayers && isLayer(k, closings, limit); k++) {
+        Meeting next;
+        if (!layerMeets(pair, ids, p, normal, separations, closings, limit, next)) break;
+        if (!any_ || (isBefore(next, met) && sidesThatBreak(ids.xy, mostOf(next.record, ids)) != 0u)) met = next;
+        any_ = true;
+        limit = slowestOf(fastestOf(closings, limit));
+    }
+    return any_;
+}
 
 // `time`: as in TurningBlow.
 void listTurning(uint pair, uvec4 ids, BlowRecord most, vec3 time) {
@@ -81,9 +105,7 @@ void listTurning(uint pair, uvec4 ids, BlowRecord most, vec3 time) {
 }
 
 void judgeTurning(uint p, uvec4 ids, Meeting met) {
-    BlowRecord most = met.record;
-    most.blow.yz *= vec2(kFaster, kFaster * kFaster);
-    if (met.time <= kLater * horizon()) listTurning(p, ids, most, vec3(met.time, 0.0, max(met.separation, 0.0)));
+    if (met.time <= kLater * horizon()) listTurning(p, ids, mostOf(met.record, ids), vec3(met.time, 0.0, max(met.separation, 0.0)));
 }
 
 // Where they will touch by then, if they do, may be nowhere near the points that they have now.

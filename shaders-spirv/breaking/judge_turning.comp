@@ -29,11 +29,6 @@ layout(push_constant) uniform Push {
 #include "lib/judge_blow.glsl"
 #include "lib/turning_contact.glsl"
 
-float yieldOf(uint body, Flight f, vec3 arm, vec3 normal) {
-    if (!movesOf(body)) return 0.0;
-    return solver_bodies[body].velocity.w + turningYield(worldInertia(ownInverseInertia(shapes[body]), f.turn), arm, normal);
-}
-
 // As the body stands now.
 vec3 armNow(uint body, Flight f, vec3 arm) { return turned(bodies[body].turn, turned(turnBack(f.turn), arm)); }
 
@@ -48,7 +43,7 @@ void leave(uint pair) {
 
 void judge(uint k, TurningBlow t, TurningContact c, float time) {
     vec3 normal = manifolds[k].normal.xyz;
-    float yield_ = yieldOf(t.ids.y, c.a, c.arm_a, normal) + yieldOf(t.ids.z, c.b, c.arm_b, normal);
+    float yield_ = yieldOf(c, t, normal);
     if (yield_ <= 0.0) return;
     vec3 arm_a = armNow(t.ids.y, c.a, c.arm_a), arm_b = armNow(t.ids.z, c.b, c.arm_b);
     tellBlow(t.ids.x, t.ids.yz, blowAt(yield_, c.closing, max(time, 0.0) / duration, arm_a, arm_b, normal), time);
@@ -58,8 +53,8 @@ void judgePoints(uint k, TurningBlow t) {
     TurningContact c = contactOf(k, t);
     bool comes = c.closing > 0.0;
     float time = comes ? meetingTime(c, t) : t.time.x;
-    if (time > horizon()) leave(t.ids.x);
-    else if (comes) judge(k, t, c, time);
+    if (min(time, c.soonest) > horizon()) leave(t.ids.x);
+    else if (comes && time <= horizon()) judge(k, t, c, time);
 }
 
 void main() {

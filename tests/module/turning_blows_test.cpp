@@ -2,6 +2,7 @@
 #include "modules/brittle/effects/material.h"
 #include "tests/module/breaking_scenes.h"
 #include "tests/module/turning_boxes.h"
+#include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@ namespace {
 
 using namespace breaking_scenes;
 using brittle::BodyDescription, brittle::Double3, brittle::SceneDescription;
+using support::SceneRun;
 using turning_boxes::TurningBox;
 
 // It turns by up to 19 degrees in a step, and by the time that they meet another of its corners may be the lowest.
@@ -149,6 +151,71 @@ TEST(TurningBlows, OfTwoThatBothTurnAreThoseOfTheirFirstMeeting) {
         }
     }
     EXPECT_GE(met, 8u);
+}
+
+// A plate on its edge, which turns as it comes down: the corner that is hit first is often not the one that comes fastest.
+TurningBox randomPlate(std::mt19937& random, double thickness, double slowest, double fastest) {
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * std::uniform_real_distribution<>()(random);
+    };
+    TurningBox plate = {{0.5, thickness, 0.5}, {0, 0.8, 0}, {0, -between(slowest, fastest), 0}};
+    plate.turn = Eigen::Quaterniond(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)).normalized();
+    plate.axis = static_cast<uint32_t>(random() % 3);
+    plate.spin = (random() % 2 == 0 ? 1 : -1) * between(8, 15);
+    return plate;
+}
+
+TEST(TurningBlows, APlateIsHitAtTheCornerThatMeetsTheGroundFirst) {
+    const TurningBox ground = {{1e3, 1e3, 1e3}, {0, -500, 0}};
+    const double density = brittle::findMaterial("porcelain")->density;
+    std::mt19937 random(3);
+    uint32_t met = 0;
+    for (uint32_t k = 0; k < 18; ++k) {
+        const TurningBox plate = randomPlate(random, 0.016, 4, 7);
+        const auto meeting = turning_boxes::firstMeeting(plate, ground, density);
+        ASSERT_TRUE(meeting);
+        if (meeting->energy() < 5) continue; // hard enough to break it for certain
+        ++met;
+        for (const double dt : {1.0 / 30, 1.0 / 60}) {
+            SceneDescription scene = sceneOf({plate.described("porcelain")});
+            scene.effects = {"contacts", "impact_fracture", "events"};
+            scene.step.dt = dt;
+            const auto world = worldOf(scene);
+            const auto events = stepUntilItBreaks(*world, static_cast<uint32_t>(meeting->time / dt) + 2);
+            ASSERT_FALSE(events.empty()) << k << ", 1/" << 1 / dt;
+            const double energy = 0.5 * double{events[0].blow.x} * events[0].blow.y * events[0].blow.y;
+            EXPECT_NEAR(energy, meeting->energy(), 0.01 * meeting->energy()) << k << ", 1/" << 1 / dt;
+        }
+    }
+    EXPECT_GE(met, 9u);
+}
+
+// m, of a body on its own.
+double lowestCorner(const SceneRun& run, const Eigen::Vector3d& size) {
+    const gpu::vec4 q = run.state(0).turn;
+    return run.place(0)[1] -
+           0.5 * (Eigen::Quaterniond(q.w, q.x, q.y, q.z).inverse() * Eigen::Vector3d::UnitY()).cwiseAbs().dot(size);
+}
+
+// The corner that is hit first comes at a tenth of the speed of that which would break it, and that is still on its way.
+// The corner that is hit first comes with too little to break it. Another one is on its way, fast enough, but not within the
+// step.
+TEST(TurningBlows, WhatDoesNotBreakAtItsFirstCornerIsStoppedThere) {
+    TurningBox plate = {{0.5, 0.02, 0.5}, {0, 0.42, 0}, {0, -1.054113, 0}};
+    plate.turn = Eigen::Quaterniond(0.506208, 0.582795, -0.542375, 0.331561).normalized();
+    plate.axis = 2;
+    plate.spin = -12.660696;
+    constexpr double kCornerSpeed = 1.2; // m/s, about
+    SceneDescription scene = sceneOf({plate.described("glass")});
+    for (const double dt : {1.0 / 30, 1.0 / 60}) {
+        scene.step.dt = dt;
+        SceneRun run(scene);
+        for (double time = 0; time < 0.25; time += dt) {
+            run.step(1);
+            EXPECT_GT(lowestCorner(run, plate.size), -0.2 * kCornerSpeed * dt) << time << " s, 1/" << 1 / dt;
+        }
+        EXPECT_EQ(run.world().counts()->broken, 0u) << "1/" << 1 / dt;
+    }
 }
 
 } // namespace

@@ -6,7 +6,7 @@ namespace {
 constexpr uint32_t kAttempts = 4; // near the meeting each squares what is left of the error
 constexpr Length kTurning = {0, COUNT_TURNING};
 
-void recordPoses(const Step& s, const PassingBuffers& p, bool is_first) {
+void recordPoses(const Step& s, const LastingBuffers& l, const PassingBuffers& p, bool is_first) {
     const StepBuffers& b = s.b.step;
     const struct {
         MeetingPush meeting;
@@ -14,7 +14,7 @@ void recordPoses(const Step& s, const PassingBuffers& p, bool is_first) {
     } push = {meetingPush(s), is_first ? 1u : 0u};
     s.record.run("advance_turning", kTurning, push,
                  {s.record.counts(), s.now.pairs, s.b.bodies, s.b.shapes, b.solver_bodies, s.b.pieces, b.manifolds, p.turning,
-                  p.posed_bodies, p.posed_pieces, p.posed_pairs, b.axes});
+                  p.posed_bodies, p.posed_pieces, p.posed_pairs, b.axes, l.breakable, l.cards, s.b.steps});
 }
 
 // Gravity is in the speeds that the poses have.
@@ -34,7 +34,7 @@ MeetingPush meetingPush(const Step& s) {
 engine::Result<void> recordTurning(const Step& s, const LastingBuffers& l, const PassingBuffers& p) {
     s.record.publish(COUNT_TURNING, NO_INDEX);
     for (uint32_t k = 0; k < kAttempts; ++k) {
-        recordPoses(s, p, k == 0);
+        recordPoses(s, l, p, k == 0);
         if (auto recorded = recordPosedPoints(s, p); !recorded) return recorded;
     }
     const struct {
