@@ -78,8 +78,7 @@ void main() {
     if (is_first == 0u && t.ids.w == 0u) setTime(k, t);
     turning[k] = t;
     uvec2 of = pairs[t.ids.x];
-    pose(2u * k, t.ids.y, of.x, t.time.x);
-    pose(2u * k + 1u, t.ids.z, of.y, t.time.x);
+    for (uint side = 0u; side < 2u; side++) pose(2u * k + side, side == 0u ? t.ids.y : t.ids.z, side == 0u ? of.x : of.y, t.time.x);
     posed_pairs[k] = uvec2(2u * k, 2u * k + 1u);
     axes[k].info.x = AXIS_UNKNOWN;
 }

@@ -98,23 +98,29 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
     return any_;
 }
 
-// `time`: as in TurningBlow.
-void listTurning(uint pair, uvec4 ids, BlowRecord most, vec3 time) {
-    if (sidesThatBreak(ids.xy, most) == 0u) return;
-    turning[atomicAdd(counts[COUNT_TURNING], 1u)] = TurningBlow(uvec4(pair, ids.xy, 0u), vec4(time, 0.0));
-}
+// What may become of two that turn: the hardest blow, and what is known of when they meet, as in TurningBlow.
+struct Prospect {
+    BlowRecord most;
+    vec3 time;
+    bool comes;
+};
 
-void judgeTurning(uint p, uvec4 ids, Meeting met) {
-    if (met.time <= kLater * horizon()) listTurning(p, ids, mostOf(met.record, ids), vec3(met.time, 0.0, max(met.separation, 0.0)));
+Prospect prospectOf(uvec4 ids, Meeting met) {
+    return Prospect(mostOf(met.record, ids), vec3(met.time, 0.0, max(met.separation, 0.0)), met.time <= kLater * horizon());
 }
 
 // Where they will touch by then, if they do, may be nowhere near the points that they have now.
-void judgeSwift(uint p, uvec4 ids, bool is_met, Meeting met) {
+Prospect swiftProspectOf(uint p, uvec4 ids, bool is_met, Meeting met) {
     float speed = mostClosing(ids.x, ids.y, vec3(0.0), gravity.xyz, duration);
     float least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
     float soonest = ids.z == 0u ? memory[p].place.w / speed : 0.0;
     vec3 time = is_met ? vec3(min(met.time, horizon()), 0.0, max(met.separation, 0.0)) : vec3(soonest, 0.0, 0.0);
-    if (soonest <= horizon()) listTurning(p, ids, blowAt(least_yield, speed, 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), time);
+    return Prospect(blowAt(least_yield, speed, 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), time, soonest <= horizon());
+}
+
+void listTurning(uint pair, uvec4 ids, Prospect prospect) {
+    if (!prospect.comes || sidesThatBreak(ids.xy, prospect.most) == 0u) return;
+    turning[atomicAdd(counts[COUNT_TURNING], 1u)] = TurningBlow(uvec4(pair, ids.xy, 0u), vec4(prospect.time, 0.0));
 }
 
 void main() {
@@ -124,8 +130,7 @@ void main() {
     uvec4 ids = memory[p].ids;
     if (!(canBreak(ids.x) || canBreak(ids.y)) || (ids.z != 0u && touches[p] == 0u)) return;
     Meeting met;
-    bool is_met = ids.z != 0u && meets(p, ids, memory[p].normal.xyz, met);
-    if (isSwift(ids)) judgeSwift(p, ids, is_met, met);
-    else if (is_met && turns(ids)) judgeTurning(p, ids, met);
+    bool is_met = ids.z != 0u && meets(p, ids, memory[p].normal.xyz, met), is_swift = isSwift(ids);
+    if (is_swift || (is_met && turns(ids))) listTurning(p, ids, is_swift ? swiftProspectOf(p, ids, is_met, met) : prospectOf(ids, met));
     else if (is_met && met.time <= horizon()) tellBlow(p, ids.xy, met.record, met.time);
 }

@@ -24,12 +24,18 @@ bool breaksBody(uint body, uint other, BlowRecord record, float share) {
     return breaks(card, form, b.form.z, blow, spread) && paysForTwo(card, form, share * energyOf(blow), spread);
 }
 
+// A loop, and not four calls: drivers that compile for processors would have the laws four times over.
 uint sidesThatBreak(uvec2 ids, BlowRecord record) {
-    bool a = breaksBody(ids.x, ids.y, record, 0.5), b = breaksBody(ids.y, ids.x, record, 0.5);
-    if (a && b) return BREAKS_A | BREAKS_B;
-    a = a || breaksBody(ids.x, ids.y, record, 1.0);
-    b = b || (!a && breaksBody(ids.y, ids.x, record, 1.0));
-    return (a ? BREAKS_A : 0u) | (b ? BREAKS_B : 0u);
+    uint by_half = 0u, by_all = 0u;
+    for (uint k = 0u; k < 4u; k++) {
+        bool is_a = (k & 1u) == 0u, is_half = k < 2u;
+        uvec2 of = is_a ? ids : ids.yx;
+        uint side = breaksBody(of.x, of.y, record, is_half ? 0.5 : 1.0) ? (is_a ? BREAKS_A : BREAKS_B) : 0u;
+        by_half |= is_half ? side : 0u;
+        by_all |= side;
+    }
+    if (by_half == (BREAKS_A | BREAKS_B)) return by_half;
+    return (by_all & BREAKS_A) != 0u ? BREAKS_A | by_half : by_all;
 }
 
 // `share`: of the step that is over when they meet.
