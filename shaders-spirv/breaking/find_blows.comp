@@ -41,8 +41,10 @@ struct Meeting {
     BlowRecord record;
     float separation;
     float closing; // m/s, on the way until then
-    float time; // s until then, with points that overlap before now
 };
+
+// s until then, with points that overlap before now.
+float timeOf(Meeting met) { return met.separation / met.closing; }
 
 // rad, of both together.
 float turnIn(float time, uvec4 ids) { return (length(bodies[ids.x].spin.xyz) + length(bodies[ids.y].spin.xyz)) * time; }
@@ -57,7 +59,7 @@ BlowRecord mostOf(BlowRecord record, uvec4 ids) {
 }
 
 // Of a layer of their points; none where these do not come closer.
-bool layerMeets(uint pair, uvec4 ids, Pair p, vec3 normal, vec4 separations, vec4 closings, float limit, out Meeting met) {
+bool layerMeets(uint pair, uvec4 ids, Pair p, vec3 normal, vec4 separations, vec4 closings, inout float limit, out Meeting met) {
     float separation;
     uint points = min(ids.z, MANIFOLD_POINTS);
     vec4 weights = weightsOf(separations, closings, limit, separation);
@@ -71,7 +73,7 @@ bool layerMeets(uint pair, uvec4 ids, Pair p, vec3 normal, vec4 separations, vec
     float now = partingAt(p, arm_a, arm_b, normal), then = speedOfMeeting(now, separation, p, normal, gravity);
     float apart = max(separation, 0.0), mean = -0.5 * (now + then);
     if (yield_ <= 0.0 || !(then < 0.0)) return false;
-    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation, mean, separation / mean);
+    met = Meeting(blowAt(yield_, -then, apart / (mean * duration), arm_a, arm_b, normal), separation, mean);
     return true;
 }
 
@@ -93,7 +95,6 @@ bool meets(uint pair, uvec4 ids, vec3 normal, out Meeting met) {
         if (!layerMeets(pair, ids, p, normal, separations, closings, limit, next)) break;
         if (!any_ || (isBefore(next, met) && sidesThatBreak(ids.xy, mostOf(next.record, ids)) != 0u)) met = next;
         any_ = true;
-        limit = slowestOf(fastestOf(closings, limit));
     }
     return any_;
 }
@@ -106,7 +107,7 @@ struct Prospect {
 };
 
 Prospect prospectOf(uvec4 ids, Meeting met) {
-    return Prospect(mostOf(met.record, ids), vec3(met.time, 0.0, max(met.separation, 0.0)), met.time <= kLater * horizon());
+    return Prospect(mostOf(met.record, ids), vec3(timeOf(met), 0.0, max(met.separation, 0.0)), timeOf(met) <= kLater * horizon());
 }
 
 // Where they will touch by then, if they do, may be nowhere near the points that they have now.
@@ -114,7 +115,7 @@ Prospect swiftProspectOf(uint p, uvec4 ids, bool is_met, Meeting met) {
     float speed = mostClosing(ids.x, ids.y, vec3(0.0), gravity.xyz, duration);
     float least_yield = solver_bodies[ids.x].velocity.w + solver_bodies[ids.y].velocity.w;
     float soonest = ids.z == 0u ? memory[p].place.w / speed : 0.0;
-    vec3 time = is_met ? vec3(min(met.time, horizon()), 0.0, max(met.separation, 0.0)) : vec3(soonest, 0.0, 0.0);
+    vec3 time = is_met ? vec3(min(timeOf(met), horizon()), 0.0, max(met.separation, 0.0)) : vec3(soonest, 0.0, 0.0);
     return Prospect(blowAt(least_yield, speed, 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), time, soonest <= horizon());
 }
 
@@ -132,5 +133,5 @@ void main() {
     Meeting met;
     bool is_met = ids.z != 0u && meets(p, ids, memory[p].normal.xyz, met), is_swift = isSwift(ids);
     if (is_swift || (is_met && turns(ids))) listTurning(p, ids, is_swift ? swiftProspectOf(p, ids, is_met, met) : prospectOf(ids, met));
-    else if (is_met && met.time <= horizon()) tellBlow(p, ids.xy, met.record, met.time);
+    else if (is_met && timeOf(met) <= horizon()) tellBlow(p, ids.xy, met.record, timeOf(met));
 }

@@ -21,11 +21,13 @@ const float kNoPoint = -3e38, kNoLimit = 3e38;
 float fastestOf(vec4 closings, float limit) { return largestOf(mix(vec4(kNoPoint), closings, lessThan(closings, vec4(limit)))); }
 // The first layer is there even if it does not come closer: a ball is not hit at the points that its hull has.
 bool isLayer(uint layer, vec4 closings, float limit) { return layer == 0u || fastestOf(closings, limit) > 0.0; }
-float slowestOf(float fastest) { return min(kSlower * fastest, fastest); }
 
-// From how far apart the points are: weights that sum to one, and how far apart the first of those is that count.
-vec4 weightsOf(vec4 separations, vec4 closings, float limit, out float separation) {
-    bvec4 is_faster = greaterThanEqual(closings, vec4(limit)), is_fast = greaterThanEqual(closings, vec4(slowestOf(fastestOf(closings, limit))));
+// Of a layer, from how far apart the points are: weights that sum to one, how far apart the first of those is that count, and the limit
+// of the next layer.
+vec4 weightsOf(vec4 separations, vec4 closings, inout float limit, out float separation) {
+    float fastest = fastestOf(closings, limit), slowest = min(kSlower * fastest, fastest);
+    bvec4 is_faster = greaterThanEqual(closings, vec4(limit)), is_fast = greaterThanEqual(closings, vec4(slowest));
+    limit = slowest;
     vec4 counting = mix(mix(vec4(3e38), separations, is_fast), vec4(3e38), is_faster);
     separation = -largestOf(-counting);
     vec4 weights = max(1.0 - (counting - separation) / kTogether, 0.0);

@@ -66,7 +66,6 @@ TurningContact contactOf(uint k, TurningBlow t) {
         if (next.closing <= 0.0) break;
         soonest = min(soonest, t.time.x + next.separation / next.closing);
         if (isSooner(next.separation, next.closing, c.separation, c.closing) && breaksAny(next, t, manifolds[k].normal.xyz)) c = next;
-        limit = slowestOf(fastestOf(closings, limit));
     }
     c.soonest = soonest;
     return c;
