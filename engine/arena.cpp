@@ -27,6 +27,7 @@ BufferView ScratchArena::take(VkDeviceSize bytes) {
     const VkDeviceSize begin = used_;
     used_ = (begin + size + kViewAlignment - 1) / kViewAlignment * kViewAlignment;
     peak_ = std::max(peak_, begin + size);
+    largest_ = std::max(largest_, size);
     if (begin + size > capacity()) {
         overflowed_ = true;
         return {};
@@ -52,6 +53,7 @@ void ScratchArena::release(Mark mark) {
 void ScratchArena::reset() {
     used_ = 0;
     peak_ = 0;
+    largest_ = 0;
     overflowed_ = false;
     alone_.clear();
 }

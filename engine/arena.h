@@ -28,7 +28,8 @@ public:
     Result<void> status() const;
     VkDeviceSize capacity() const { return buffer_->size(); }
     VkDeviceSize used() const { return used_; }
-    VkDeviceSize peak() const { return peak_; } // the most that was in use at a time, also what did not fit
+    VkDeviceSize peak() const { return peak_; }       // the most that was in use at a time, also what did not fit
+    VkDeviceSize largest() const { return largest_; } // of the ranges taken, also of those that did not fit
     const Buffer& buffer() const { return *buffer_; }
 
 private:
@@ -42,6 +43,7 @@ private:
     std::vector<std::unique_ptr<Buffer>> alone_;
     VkDeviceSize used_ = 0;
     VkDeviceSize peak_ = 0;
+    VkDeviceSize largest_ = 0;
     bool overflowed_ = false;
 };
 

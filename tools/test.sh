@@ -34,6 +34,18 @@ step() {
   summary+=("$(printf '%-12s %-7s %4d s' "$name" "$verdict" $((SECONDS - start)))")
 }
 
+# A fuzzer finds by chance what the next run does not find again: its findings go to the log, to be given to
+# build/fuzz/bin/brittle_fuzz_FORMAT by: base64 -d | gunzip
+show_findings() {
+  [ "${summary[-1]#*FAILED}" != "${summary[-1]}" ] || return 0
+  local finding
+  for finding in build/fuzz/findings/*; do
+    [ -f "$finding" ] || continue
+    echo "-- finding ${finding##*/}"
+    gzip -9 <"$finding" | base64
+  done
+}
+
 step build tools/build.sh release all
 if $failed; then exit 1; fi
 step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
@@ -43,6 +55,7 @@ step build-asan tools/build.sh asan brittle_tests_abi brittle_tests_engine britt
 step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
 step build-fuzz tools/build.sh fuzz
 step fuzz ctest --preset fuzz --label-regex '^fuzz$' --no-tests=error --parallel 2
+show_findings
 if $long; then
   step corpus tools/corpus.sh
   step long ctest --preset release --label-regex '^long$' --no-tests=error

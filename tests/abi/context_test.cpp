@@ -1,4 +1,4 @@
-// Contexts: versions, allocators, logs, and devices of hosts.
+// Contexts: versions, logs, and devices of hosts.
 #include "tests/abi/hosting.h"
 
 #include <cmath>
@@ -10,30 +10,6 @@ namespace {
 
 using namespace abi_test;
 
-struct Heap {
-    std::map<void*, size_t> blocks;
-    size_t allocations = 0, most = ~size_t{0};
-    bool mixed_up = false;
-
-    BrittleAllocator allocator() {
-        return {[](void* user, size_t size, size_t alignment) { return static_cast<Heap*>(user)->take(size, alignment); },
-                [](void* user, void* memory, size_t size, size_t) { static_cast<Heap*>(user)->give(memory, size); }, this};
-    }
-    void* take(size_t size, size_t alignment) {
-        if (allocations == most) return nullptr;
-        ++allocations;
-        void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-        blocks[memory] = size;
-        return memory;
-    }
-    void give(void* memory, size_t size) {
-        const auto found = blocks.find(memory);
-        mixed_up = mixed_up || found == blocks.end() || found->second != size;
-        if (found != blocks.end()) blocks.erase(found);
-        std::free(memory);
-    }
-};
-
 struct Heard {
     std::vector<std::pair<BrittleLogLevel, std::string>> lines;
     void listen(BrittleContextDef& def) {
@@ -43,12 +19,6 @@ struct Heard {
         };
     }
 };
-
-BrittleContextDef defOn(const HostDevice& device) {
-    BrittleContextDef def = brittleDefaultContextDef();
-    def.vulkan = device.vulkan();
-    return def;
-}
 
 TEST(SmallAbi, NamesEveryResultAndItsVersion) {
     EXPECT_EQ(brittleVersion(), BRITTLE_VERSION);
@@ -129,48 +99,6 @@ TEST(SmallAbi, RefusesHalfOfADevice) {
     def = defOn(device);
     def.allocator.allocate = [](void*, size_t size, size_t) { return std::malloc(size); };
     EXPECT_EQ(brittleCreateContext(&def, &context), BRITTLE_BAD_VALUE);
-}
-
-TEST(SmallAbi, GivesBackAllThatItTookFromTheHostsAllocator) {
-    const HostDevice device;
-    Heap heap;
-    BrittleContextDef def = defOn(device);
-    def.allocator = heap.allocator();
-    BrittleContext* context = nullptr;
-    ASSERT_EQ(brittleCreateContext(&def, &context), BRITTLE_OK);
-    const size_t at_first = heap.allocations;
-    EXPECT_GT(at_first, 0u);
-    const CubeMesh cube = cubeMesh();
-    const BrittleMeshDef mesh_def = cube.def();
-    BrittleMesh mesh;
-    MUST(context, brittleCreateMesh(context, &mesh_def, &mesh));
-    EXPECT_GT(heap.allocations, at_first);
-    brittleDestroyContext(context);
-    EXPECT_TRUE(heap.blocks.empty());
-    EXPECT_FALSE(heap.mixed_up);
-}
-
-TEST(SmallAbi, SurvivesAnAllocatorThatRunsOut) {
-    const HostDevice device;
-    const CubeMesh cube = cubeMesh();
-    const BrittleMeshDef mesh_def = cube.def();
-    bool was_enough = false;
-    for (size_t most = 0; !was_enough && most < 50; ++most) {
-        Heap heap;
-        heap.most = most;
-        BrittleContextDef def = defOn(device);
-        def.allocator = heap.allocator();
-        BrittleContext* context = nullptr;
-        const BrittleResult made = brittleCreateContext(&def, &context);
-        BrittleMesh mesh = {0};
-        const BrittleResult added = made == BRITTLE_OK ? brittleCreateMesh(context, &mesh_def, &mesh) : made;
-        was_enough = added == BRITTLE_OK;
-        EXPECT_TRUE(was_enough || added == BRITTLE_OUT_OF_MEMORY) << brittleResultName(added);
-        EXPECT_EQ(mesh.id != 0, was_enough);
-        brittleDestroyContext(context);
-        EXPECT_TRUE(heap.blocks.empty()) << "with " << most << " allocations";
-    }
-    EXPECT_TRUE(was_enough);
 }
 
 TEST(SmallAbi, SaysWhatItWorksOn) {

@@ -2,9 +2,15 @@
 
 namespace abi_test {
 
-Hosting::Hosting(const HostOptions& options) : device_(options) {
+BrittleContextDef defOn(const HostDevice& device) {
     BrittleContextDef def = brittleDefaultContextDef();
-    def.vulkan = device_.vulkan();
+    def.vulkan = device.vulkan();
+    return def;
+}
+
+Hosting::Hosting(const HostOptions& options, const BrittleAllocator& allocator) : device_(options) {
+    BrittleContextDef def = defOn(device_);
+    def.allocator = allocator;
     EXPECT_EQ(brittleCreateContext(&def, &context_), BRITTLE_OK);
 }
 

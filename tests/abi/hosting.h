@@ -16,9 +16,11 @@ namespace abi_test {
         ASSERT_EQ(must_result, BRITTLE_OK) << brittleResultName(must_result) << ": " << brittleLastError(context);             \
     } while (false)
 
+BrittleContextDef defOn(const HostDevice& device);
+
 class Hosting {
 public:
-    explicit Hosting(const HostOptions& options = {});
+    explicit Hosting(const HostOptions& options = {}, const BrittleAllocator& allocator = {});
     // The layers must not have said anything.
     ~Hosting();
     HostDevice& device() { return device_; }

@@ -395,6 +395,8 @@ TEST(AbiWorld, GoesOnFromASavedStateBitForBit) {
     // What is no such state changes nothing.
     EXPECT_EQ(brittleRestoreState(host, scene.world, state.data(), size - 1), BRITTLE_BAD_STATE);
     EXPECT_EQ(brittleRestoreState(host, scene.world, state.data(), 3), BRITTLE_BAD_STATE);
+    EXPECT_EQ(brittleRestoreState(host, scene.world, state.data(), SIZE_MAX), BRITTLE_BAD_STATE)
+        << "nothing past its end is read";
     for (const size_t at : {size_t{0}, size_t{20}, size / 2, size - 1}) {
         auto broken = state;
         broken[at] ^= std::byte{1};
@@ -414,6 +416,22 @@ TEST(AbiWorld, SaysWhichBudgetIsTooSmall) {
     const Scene scene = makeScene(host, cubes, def);
     EXPECT_EQ(brittleStep(host, scene.world, 1), BRITTLE_CAPACITY);
     EXPECT_NE(host.error().find("pairs"), std::string::npos) << host.error();
+}
+
+// 1,398,101 triangles of 96 bytes fill what lavapipe can bind at once; the cube's own twelve come on top.
+TEST(AbiWorld, WhoseSurfacesTheDeviceCannotBindIsRefused) {
+    const Hosting host;
+    for (const uint32_t triangles : {1'398'000u, 1'398'101u, 1'398'102u, 4'194'304u}) {
+        BrittleWorldDef def = brittleDefaultWorldDef();
+        def.budget.fragment_triangles = triangles;
+        const Scene scene = makeScene(host, {glassCube(host, 1)}, def, false);
+        const BrittleResult started = brittleStartWorld(host, scene.world);
+        EXPECT_TRUE(started == BRITTLE_OK || started == BRITTLE_CAPACITY) << brittleResultName(started) << ": " << host.error();
+        const bool says_what_to_do = host.error().find("lower the budget") != std::string::npos;
+        EXPECT_TRUE(started == BRITTLE_OK || says_what_to_do) << host.error();
+        EXPECT_TRUE(started == BRITTLE_OK || triangles > 1'398'000u) << host.error();
+        MUST(host, brittleDestroyWorld(host, scene.world));
+    }
 }
 
 TEST(AbiWorld, MovesMeshesByTheirCells) {

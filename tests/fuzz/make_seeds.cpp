@@ -45,6 +45,15 @@ ImportedMesh withJunction(ImportedMesh mesh) {
     return mesh;
 }
 
+// A triangle without area that reaches far beyond the model.
+ImportedMesh withSpike(ImportedMesh mesh) {
+    mesh.positions.push_back({1e6, 0, 0});
+    mesh.triangles.push_back({0, 0, static_cast<uint32_t>(mesh.positions.size() - 1)});
+    mesh.corner_normals.resize(3 * mesh.triangles.size());
+    mesh.corner_uvs.resize(3 * mesh.triangles.size());
+    return mesh;
+}
+
 std::map<std::string, ImportedMesh> models() {
     const ImportedMesh cube = makeCube(), ball = makeIcosphere(0);
     ImportedMesh flipped = cube;
@@ -57,7 +66,8 @@ std::map<std::string, ImportedMesh> models() {
             {"hollow", cube + moved(ball, 0.2, {0, 0, 0})},
             {"touching", cube + moved(cube, 1, {1, 0, 0})},
             {"seam", part(ball, 0, 10) + moved(part(ball, 10, 10), 1, {0, 0, 1e-6})},
-            {"junction", withJunction(ball)}};
+            {"junction", withJunction(ball)},
+            {"spike", withSpike(part(cube, 0, 10))}};
 }
 
 void write(const fs::path& path, const std::string& bytes) {

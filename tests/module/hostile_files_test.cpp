@@ -89,7 +89,7 @@ std::vector<Hostile> hostileFiles() {
         {"NanInPly", ".ply", ply("3", "1", "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), "vertex 1 of 3: a coordinate is not a finite"},
         {"NanInStl", ".stl", stl(1, {{0, 0, 0, 1, nan, 0, 0, 1, 0}}), "triangle 0 (byte 84): a coordinate is not a finite"},
         {"FarFloatsInStl", ".stl", stl(1, {{-far, 0, 0, far, 0, 0, 0, far, 0}}), "units large"},
-        {"NoSize", ".obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", "0 units large"},
+        {"NoSize", ".obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", "collapsed to a line or point"},
         {"AllInOneLine", ".obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 3 2\n", "doubled"},
         // Counts.
         {"CountsOfOff", ".off", "OFF\n18446744073709551615 18446744073709551615 0\n0 0 0\n",

@@ -29,6 +29,21 @@ ImportedMesh otherCube() {
     return cube;
 }
 
+// Without that triangle: a dent instead, down to the middle of the face opposite or beside it. Of a face beside it a part lies
+// on the dent then.
+ImportedMesh dentedCube(size_t triangle, const Double3& to) {
+    ImportedMesh cube = makeCube();
+    const Index3 t = cube.triangles[triangle];
+    const auto deepest = static_cast<uint32_t>(cube.positions.size());
+    cube.positions.push_back(to);
+    cube.triangles[triangle] = {t[0], t[1], deepest};
+    cube.triangles.push_back({t[1], t[2], deepest});
+    cube.triangles.push_back({t[2], t[0], deepest});
+    cube.corner_normals.assign(3 * cube.triangles.size(), {0, 0, 0});
+    cube.corner_uvs.assign(3 * cube.triangles.size(), {0, 0});
+    return cube;
+}
+
 MeshReport inspect(const ImportedMesh& imported) {
     const auto model = prepareMesh(imported);
     if (!model) throw std::runtime_error(model.error().message);
@@ -89,6 +104,25 @@ TEST(Check, SolidsMayTouch) {
         EXPECT_EQ(report.isSound(), !shares_triangles);
     }
     EXPECT_EQ(inspect(makeCube() + moved(makeCube(), 1, {1, 1, 0})).shared_edges, 1u);
+}
+
+// What lies between two layers without a distance has no side: it is judged by the rest.
+TEST(Check, ASurfaceMayLieOnItself) {
+    int layered = 0;
+    for (size_t triangle = 0; triangle < 12; ++triangle)
+        for (size_t axis = 0; axis < 3; ++axis)
+            for (const double side : {-0.5, 0.5}) {
+                Double3 to = {0, 0, 0};
+                to[axis] = side;
+                const ImportedMesh cube = dentedCube(triangle, to);
+                const auto [a, b, c] = makeCube().triangles[triangle];
+                const auto on = [&](uint32_t v) { return cube.positions[v][axis] == side; };
+                if (on(a) && on(b) && on(c)) continue; // no dent
+                layered += on(a) + on(b) + on(c) == 2 ? 1 : 0;
+                const MeshReport report = inspect(cube);
+                EXPECT_TRUE(report.isSound()) << triangle << ", " << axis << ", " << side << ": " << report.problems.front();
+            }
+    EXPECT_EQ(layered, 24);
 }
 
 TEST(Check, SolidsMayNotCross) {

@@ -25,6 +25,16 @@ ImportedMesh soupOf(const ImportedMesh& mesh) {
     return soup.take();
 }
 
+// And a triangle of two corners `between` apart and one far away.
+ImportedMesh withSpike(ImportedMesh mesh, double between, double far) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {between, 0, 0}, {far, far, 0}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.corner_normals.resize(3 * mesh.triangles.size());
+    mesh.corner_uvs.resize(3 * mesh.triangles.size());
+    return mesh;
+}
+
 ImportedMesh moved(ImportedMesh mesh, double scale, const Double3& by) {
     for (Double3& p : mesh.positions)
         p = scale * p + by;
@@ -99,6 +109,18 @@ TEST(Prepare, DropsCollapsedTrianglesAndTheirVertices) {
     EXPECT_EQ(model->notes.collapsed, 1u);
     EXPECT_EQ(model->mesh.positions.size(), 8u);
     EXPECT_EQ(model->mesh.triangles.size(), 12u);
+}
+
+// A corner of a triangle that is no more does not count, whether two others are at one place in the file or only as floats.
+TEST(Prepare, IsAsLargeAsWhatHasNotCollapsed) {
+    for (const double between : {0.0, 1e-9}) {
+        const auto prepared = prepareMesh(withSpike(makeCube(), between, 100));
+        ASSERT_TRUE(prepared) << prepared.error().message;
+        EXPECT_EQ(prepared->mesh.center, (Double3{0, 0, 0}));
+        EXPECT_EQ(prepared->mesh.positions.size(), 8u);
+        EXPECT_EQ(prepared->notes.collapsed, 1u);
+    }
+    EXPECT_FALSE(prepareMesh(withSpike(moved(makeCube(), 1e-12, {0, 0, 0}), 0, 100))) << "too small to be worked with";
 }
 
 TEST(Prepare, RefusesWhatFloatsCannotHold) {

@@ -15,7 +15,7 @@ namespace brittle::abi {
 namespace {
 
 constexpr uint32_t kNumberBits = 22, kBornBits = 30, kColliders = 1u << (kNumberBits - 1); // colliders' numbers begin there
-constexpr uint64_t kMostWaiting = 1u << 16;                                                // events kept for a host
+constexpr size_t kMostWaiting = 1u << 16;                                                  // events kept for a host
 
 uint64_t bodyBits(uint64_t tag, uint64_t number, uint64_t born) {
     return static_cast<uint64_t>(Kind::Body) << 60 | (tag & 0xff) << 52 | (number & ((1u << kNumberBits) - 1)) << kBornBits |
@@ -30,15 +30,28 @@ ShapeFrame frameIn(const Pose& pose, const Double3& place, const Turn& turn) {
     return {turnedBack(pose.turn, place - pose.place), {relative.x(), relative.y(), relative.z(), relative.w()}};
 }
 
-// The device tells each event once, the host may have too little room to hear all at once.
+// Where the host has no memory for them, they go on waiting.
 template <class Event>
-void keep(const HeardEvents<Event>& told, HostedWorld::Waiting<Event>& waiting) {
-    waiting.lost += told.lost;
-    for (const Event& event : told.events)
-        if (waiting.events.size() < kMostWaiting)
-            waiting.events.push_back(event);
-        else
-            ++waiting.lost;
+void keepArrived(HostedWorld::Waiting<Event>& waiting) {
+    HeardEvents<Event>& arrived = waiting.arrived;
+    const size_t kept = std::min(arrived.events.size(), kMostWaiting - waiting.events.size());
+    waiting.events.insert(waiting.events.end(), arrived.events.begin(), arrived.events.begin() + static_cast<ptrdiff_t>(kept));
+    waiting.lost += arrived.lost + static_cast<uint32_t>(arrived.events.size() - kept);
+    arrived = {};
+}
+
+template <class Event, class Hear>
+HostedWorld::Waiting<Event>& withNew(HostedWorld::Waiting<Event>& waiting, Hear&& hear) {
+    keepArrived(waiting);
+    waiting.arrived = orRefuse(hear());
+    keepArrived(waiting);
+    return waiting;
+}
+
+template <class Event>
+void forget(HostedWorld::Waiting<Event>& waiting) {
+    waiting.events.clear();
+    waiting.arrived = {};
 }
 
 } // namespace
@@ -111,13 +124,16 @@ HostedWorld::Named HostedWorld::named(BrittleBody body) const {
 }
 
 HostedWorld::Waiting<gpu::BreakEvent>& HostedWorld::hearBreaks() {
-    keep(orRefuse(running().breaks()), breaks_);
-    return breaks_;
+    return withNew(breaks_, [this] { return running().breaks(); });
 }
 
 HostedWorld::Waiting<gpu::ImpactEvent>& HostedWorld::hearImpacts() {
-    keep(orRefuse(running().impacts()), impacts_);
-    return impacts_;
+    return withNew(impacts_, [this] { return running().impacts(); });
+}
+
+void HostedWorld::forgetEvents() {
+    forget(breaks_);
+    forget(impacts_);
 }
 
 BrittleMaterial HostedWorld::materialOf(uint32_t slot) const {

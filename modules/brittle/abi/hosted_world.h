@@ -48,21 +48,20 @@ public:
     };
     Named named(BrittleBody body) const; // refuses what was never an id of this world
 
-    // Events told by the device and not yet to the host; how many were lost.
+    // Events told by the device and not yet to the host; how many were lost. The device tells each once: what it has told waits
+    // in `arrived` until the host has memory for it.
     template <class Event>
     struct Waiting {
         explicit Waiting(std::pmr::memory_resource* memory) : events(memory) {}
         std::pmr::vector<Event> events;
+        HeardEvents<Event> arrived;
         uint32_t lost = 0;
     };
     Waiting<gpu::BreakEvent>& hearBreaks();
     Waiting<gpu::ImpactEvent>& hearImpacts();
     uint32_t breaksLost() const { return breaks_.lost; }
     uint32_t impactsLost() const { return impacts_.lost; }
-    void forgetEvents() {
-        breaks_.events.clear();
-        impacts_.events.clear();
-    }
+    void forgetEvents();
 
     // Of a body as it was added, by its slot; none, all zeros.
     BrittleMaterial materialOf(uint32_t slot) const;

@@ -33,9 +33,14 @@ std::vector<std::byte> save(HostedWorld& world) {
 
 std::span<const std::byte> stateIn(const HostedWorld& world, std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(Head)) throw Refusal(BRITTLE_BAD_STATE, "too few bytes for a saved state");
+    Head told;
+    std::memcpy(&told, bytes.data(), sizeof told);
     const auto state = bytes.subspan(sizeof(Head));
+    if (told.bytes != state.size()) // no byte more is read
+        throw Refusal(BRITTLE_BAD_STATE, "the state has " + std::to_string(told.bytes) + " bytes behind its head, not " +
+                                             std::to_string(state.size()));
     const Head head = headFor(world, state);
-    if (std::memcmp(&head, bytes.data(), sizeof head) != 0)
+    if (std::memcmp(&head, &told, sizeof head) != 0)
         throw Refusal(BRITTLE_BAD_STATE, "these bytes are no state of such a world, or have been changed since it was saved");
     return state;
 }

@@ -36,7 +36,8 @@ Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_direction
     Capacities c = usualCapacities(mostOf(room));
     c.bins = gridOfTiles(room.mesh.objects, room.most_sites).binCount();
     c.tiled = true;
-    // Sites that crowd about a blow as the paper has them asked for it of 9 in 100 cells, narrow rings of 45, others of far fewer.
+    // Sites that crowd about a blow as the paper has them asked for it of 9 in 100 cells, narrow rings of 45, others of far
+    // fewer.
     c.exact_medium = std::min(c.exact_medium, std::max(64u, room.sites / 2));
     c.exact_large = 0;
     // What does not fit stays whole, so there is no need for as many as a broken mesh of any kind may have.
@@ -63,11 +64,10 @@ BreakingEvent planBreaking(const engine::Device& device, uint32_t group_size, co
     return event;
 }
 
-uint64_t layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event) {
+void layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event) {
     const auto beside_sites = [&](engine::ScratchArena& rest) { takeGatherScratch(rest, event.room.mesh, event.gather); };
-    const uint64_t largest = layOut(arena, event.capacity, {}, event.b, beside_sites);
+    layOut(arena, event.capacity, {}, event.b, beside_sites);
     shareMesh(event.b, event.gather);
-    return largest;
 }
 
 void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, engine::BufferView vertices,

@@ -31,8 +31,7 @@ struct BreakingEvent {
 // All but the buffers.
 BreakingEvent planBreaking(const engine::Device& device, uint32_t group_size, const BreakingRoom& room,
                            uint32_t collider_directions = 0);
-// Returns the bytes of the largest view.
-uint64_t layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event);
+void layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event);
 
 // Wants COUNT_BREAKING, COUNT_SOUP_TRIANGLES, COUNT_SOUP_CORNERS and COUNT_ASKED_SITES published, no more of each than there is
 // room for, after everything else in the event's counts and arguments, which `record` is over, was cleared. `breaking`:

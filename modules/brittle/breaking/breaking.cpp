@@ -238,8 +238,8 @@ private:
         auto scene = SceneBuffers::create(device_, event_.capacity.emitted, event_.capacity.fragments);
         if (!scene) return scene.error();
         scene_ = std::move(*scene);
-        if (const uint64_t vertices = scene_->views().vertices.size; vertices > device_.limits().maxStorageBufferRange)
-            return tooLarge(vertices);
+        if (auto fits = canBind(scene_->views().vertices.size); !fits) return fits;
+        if (auto fits = canBind(contents.surface_vertices.size() * sizeof(FragmentVertex)); !fits) return fits;
         auto colliders = ColliderBuffers::create(device_, event_.capacity);
         if (!colliders) return colliders.error();
         colliders_.emplace(std::move(*colliders));
@@ -247,9 +247,8 @@ private:
              other = engine::ScratchArena::create(device_, 256, "plan");
         if (!plan) return plan.error();
         if (!other) return other.error();
-        const auto laid_out = layOutAll(*plan, *other, contents);
-        if (!laid_out) return laid_out.error();
-        if (*laid_out > device_.limits().maxStorageBufferRange) return tooLarge(*laid_out);
+        if (auto laid_out = layOutAll(*plan, *other, contents); !laid_out) return laid_out;
+        if (auto fits = canBind(std::max(plan->largest(), other->largest())); !fits) return fits;
         auto lasting = engine::ScratchArena::create(device_, plan->peak(), "breaking", VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
              passing = engine::ScratchArena::create(device_, other->peak(), "breaking, in a step");
         if (!lasting) return lasting.error();
@@ -275,21 +274,23 @@ private:
         return {};
     }
 
-    // Bytes of the largest list.
-    Result<uint64_t> layOutAll(engine::ScratchArena& lasting, engine::ScratchArena& passing, const WorldContents& contents) {
+    Result<void> layOutAll(engine::ScratchArena& lasting, engine::ScratchArena& passing, const WorldContents& contents) {
         l_ = layOutLasting(lasting, contents, effects_);
         p_ = layOutPassing(passing, sizes_);
         auto pools = layOutPools(lasting, passing, room_.pools);
         if (!pools) return pools.error();
         pools_ = *pools;
         fracture_begin_ = passing.used();
-        return std::max(layOutBreaking(passing, event_), l_.surface_vertices.size);
+        layOutBreaking(passing, event_);
+        return {};
     }
 
-    Error tooLarge(uint64_t bytes) const {
-        return {ErrorCode::Capacity,
-                "needs a list of " + std::to_string(bytes >> 20) + " MiB, the device can bind " +
-                    std::to_string(device_.limits().maxStorageBufferRange >> 20)};
+    Result<void> canBind(uint64_t bytes) const {
+        const uint64_t most = device_.limits().maxStorageBufferRange;
+        if (bytes <= most) return {};
+        return Error{ErrorCode::Capacity, "what breaks needs a list of " + std::to_string(bytes) +
+                                              " bytes, the device can bind " + std::to_string(most) +
+                                              "; lower the budgets of fragments and of what breaks in a step"};
     }
 
     Result<void> fill(const WorldContents& contents) {
@@ -331,7 +332,8 @@ Result<std::unique_ptr<Breaking>> Breaking::create(Device& device, const WorldCo
     auto breaking = std::make_unique<DeviceBreaking>(device, room, settings);
     const auto made = breaking->make(contents, world.pairs, group_size);
     if (!made && made.error().code == ErrorCode::Capacity)
-        return Error{ErrorCode::Capacity, "room for what breaks: " + made.error().message + "; use smaller budgets for breaking"};
+        return Error{ErrorCode::Capacity,
+                     "room for what breaks: " + made.error().message + "; use smaller budgets for breaking"};
     if (!made) return made.error();
     return std::unique_ptr<Breaking>(std::move(breaking));
 }

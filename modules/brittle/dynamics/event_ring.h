@@ -26,8 +26,10 @@ engine::Result<HeardEvents<Event>> hear(engine::Device& device, const engine::Bu
     const auto room = static_cast<uint32_t>(ring.size / sizeof(Event));
     const uint32_t fresh = now - heard, kept = std::min(fresh, room), first = (now - kept) % room;
     HeardEvents<Event> answer{std::vector<Event>(kept), fresh - kept};
-    heard = now;
-    if (kept == 0) return answer;
+    if (kept == 0) {
+        heard = now;
+        return answer;
+    }
     const uint32_t before_end = std::min(kept, room - first);
     const auto piece = [&](uint32_t at, uint32_t from, uint32_t length) {
         return Fetch{ring.sub(from * sizeof(Event), length * sizeof(Event)), answer.events.data() + at, length * sizeof(Event)};
@@ -35,6 +37,7 @@ engine::Result<HeardEvents<Event>> hear(engine::Device& device, const engine::Bu
     std::vector<Fetch> wanted = {piece(0, first, before_end)};
     if (before_end < kept) wanted.push_back(piece(before_end, 0, kept - before_end));
     if (auto read = fetch(device, wanted); !read) return read.error();
+    heard = now; // all of it is there
     return answer;
 }
 

@@ -55,18 +55,46 @@ Hit intersect(const Corners& p, const Double3& origin, const Double3& direction)
     return {least > kMargin, distance, facing > 0 ? 1 : -1};
 }
 
-std::optional<int> windingAlong(const Mesh& mesh, const TriangleTree& tree, const Double3& origin, const Double3& direction,
-                                double nearest, uint64_t& tests) {
+struct Ray {
+    uint32_t from = 0; // triangle
+    Double3 origin, direction;
+};
+
+// Where it lies on another surface nobody can say which of the two is above the other.
+struct Layers {
+    double nearest = 0; // that count as one
+    bool may_lie_on_others = false;
+};
+
+std::optional<int> windingAlong(const Mesh& mesh, const TriangleTree& tree, const Ray& ray, const Layers& layers,
+                                uint64_t& tests) {
     bool is_clear = true;
     int winding = 0;
-    tree.forEachAlong(origin, direction, [&](uint32_t t) {
+    tree.forEachAlong(ray.origin, ray.direction, [&](uint32_t t) {
         ++tests;
-        const Hit hit = intersect(cornersOf(mesh, t), origin, direction);
-        if (hit.distance >= 0 && hit.distance < nearest) return; // the surface it starts from, or one that lies on it
+        if (t == ray.from) return;
+        const Hit hit = intersect(cornersOf(mesh, t), ray.origin, ray.direction);
         is_clear = is_clear && hit.is_clear;
-        winding += hit.turn;
+        if (hit.distance >= 0 && hit.distance < layers.nearest)
+            is_clear = is_clear && layers.may_lie_on_others;
+        else
+            winding += hit.turn;
     });
     return is_clear ? std::optional(winding) : std::nullopt;
+}
+
+double fraction(double x) { return x - std::floor(x); }
+
+// Spread over the triangle, in odd directions.
+Ray rayBelow(const Mesh& mesh, uint32_t triangle, int attempt) {
+    const Corners p = cornersOf(mesh, triangle);
+    const Double3 normal = normalized(doubleArea(p), {0, 0, 1});
+    double u = fraction(0.31 + 0.7549 * attempt), v = fraction(0.37 + 0.5698 * attempt);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const double tilt = 0.071 + 0.037 * attempt;
+    const Double3 along = normalized(p[1] - p[0], {1, 0, 0}), across = cross(normal, along);
+    return {triangle, p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]),
+            normalized(tilt * along + (0.7 * tilt) * across - normal, {0, 0, -1})};
 }
 
 } // namespace
@@ -92,18 +120,15 @@ std::vector<Component> findComponents(const Mesh& mesh, const MeshTopology& topo
     return components;
 }
 
+// Rays that graze an edge tell nothing: others are tried from elsewhere on the triangle. One that lies on another surface all
+// over, as those of solids that touch, is taken as the upper one.
 int windingBelow(const Mesh& mesh, const TriangleTree& tree, uint32_t triangle, double diagonal, uint64_t& tests) {
-    const double nearest = 3e-8 * diagonal; // half of a float's last digit: two surfaces this near count as one
-    const Corners p = cornersOf(mesh, triangle);
-    const Double3 normal = normalized(doubleArea(p), {0, 0, 1});
-    // Rays that graze an edge tell nothing: try others, from elsewhere on the triangle and in odd directions.
-    for (int attempt = 0; attempt < 16; ++attempt) {
-        const double u = 0.31 + 0.013 * attempt, v = 0.37 - 0.011 * attempt, tilt = 0.071 + 0.037 * attempt;
-        const Double3 origin = p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]);
-        const Double3 along = normalized(p[1] - p[0], {1, 0, 0}), across = cross(normal, along);
-        const Double3 direction = normalized(tilt * along + (0.7 * tilt) * across - normal, {0, 0, -1});
-        if (const auto winding = windingAlong(mesh, tree, origin, direction, nearest, tests)) return *winding;
-    }
+    const double nearest = 3e-8 * diagonal; // half of a float's last digit
+    for (const bool may_lie_on_others : {false, true})
+        for (int attempt = 0; attempt < 16; ++attempt) {
+            const Ray ray = rayBelow(mesh, triangle, attempt);
+            if (const auto winding = windingAlong(mesh, tree, ray, {nearest, may_lie_on_others}, tests)) return *winding;
+        }
     return 1;
 }
 

@@ -15,15 +15,29 @@ namespace {
 
 engine::Error badMesh(std::string message) { return {engine::ErrorCode::BadInput, std::move(message)}; }
 
-std::vector<char> usedVertices(const ImportedMesh& imported) {
+std::vector<char> verticesOf(const ImportedMesh& imported, const std::vector<uint32_t>& triangles) {
     std::vector<char> used(imported.positions.size(), 0);
-    for (const Index3& t : imported.triangles)
-        for (const uint32_t v : t)
+    for (const uint32_t t : triangles)
+        for (const uint32_t v : imported.triangles[t])
             used[v] = 1;
     return used;
 }
 
-engine::Result<Box> boxOfUsed(const ImportedMesh& imported, const std::vector<char>& used) {
+template <class Corner>
+bool hasCollapsed(const Corner& a, const Corner& b, const Corner& c) {
+    return a == b || b == c || c == a;
+}
+
+std::vector<uint32_t> withDistinctCorners(const ImportedMesh& imported) {
+    std::vector<uint32_t> triangles;
+    for (uint32_t t = 0; t < imported.triangles.size(); ++t) {
+        const Index3& i = imported.triangles[t];
+        if (!hasCollapsed(imported.positions[i[0]], imported.positions[i[1]], imported.positions[i[2]])) triangles.push_back(t);
+    }
+    return triangles;
+}
+
+engine::Result<Box> boxOf(const ImportedMesh& imported, const std::vector<char>& used) {
     Box box;
     for (size_t v = 0; v < used.size(); ++v) {
         if (!used[v]) continue;
@@ -41,6 +55,8 @@ engine::Result<Box> boxOfUsed(const ImportedMesh& imported, const std::vector<ch
     return box;
 }
 
+bool isSameBox(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
+
 // Vertex of the file -> vertex of the mesh.
 std::vector<uint32_t> weld(const ImportedMesh& imported, const std::vector<char>& used, Mesh& mesh, PrepareNotes& notes) {
     std::vector<uint32_t> index(used.size(), 0);
@@ -57,20 +73,29 @@ std::vector<uint32_t> weld(const ImportedMesh& imported, const std::vector<char>
     return index;
 }
 
-void addTriangles(const ImportedMesh& imported, const std::vector<uint32_t>& index, Mesh& mesh, PrepareNotes& notes) {
-    for (size_t t = 0; t < imported.triangles.size(); ++t) {
+void addTriangle(const ImportedMesh& imported, uint32_t t, const Index3& triangle, Mesh& mesh) {
+    mesh.triangles.push_back(triangle);
+    for (size_t k = 0; k < 3; ++k) {
+        mesh.corner_normals.push_back(imported.corner_normals[3 * t + k]);
+        mesh.corner_uvs.push_back(imported.corner_uvs[3 * t + k]);
+    }
+}
+
+// Of those triangles, about the middle of that box; the triangles that have not collapsed are left in the list.
+WeldedMesh weldAround(const Box& box, const ImportedMesh& imported, const std::vector<char>& used,
+                      std::vector<uint32_t>& triangles) {
+    WeldedMesh welded;
+    welded.mesh.center = 0.5 * (box.lower + box.upper);
+    const std::vector<uint32_t> index = weld(imported, used, welded.mesh, welded.notes);
+    std::erase_if(triangles, [&](uint32_t t) {
         const Index3& from = imported.triangles[t];
         const Index3 triangle = {index[from[0]], index[from[1]], index[from[2]]};
-        if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
-            ++notes.collapsed;
-            continue;
-        }
-        mesh.triangles.push_back(triangle);
-        for (size_t k = 0; k < 3; ++k) {
-            mesh.corner_normals.push_back(imported.corner_normals[3 * t + k]);
-            mesh.corner_uvs.push_back(imported.corner_uvs[3 * t + k]);
-        }
-    }
+        if (hasCollapsed(triangle[0], triangle[1], triangle[2])) return true;
+        addTriangle(imported, t, triangle, welded.mesh);
+        return false;
+    });
+    welded.notes.collapsed = static_cast<uint32_t>(imported.triangles.size() - triangles.size());
+    return welded;
 }
 
 // Reversed triangles for a mesh whose volume is negative: the solid is then what the surface encloses.
@@ -125,16 +150,20 @@ void dropUnusedPositions(Mesh& mesh) {
             v = index[v];
 }
 
+// A triangle that has collapsed may reach far beyond all others: the model is as large as what is left of it, and where that is
+// less than before it is welded anew about its own middle.
 engine::Result<WeldedMesh> weldMesh(const ImportedMesh& imported) {
     if (imported.triangles.empty()) return badMesh("no triangles in the model");
-    const std::vector<char> used = usedVertices(imported);
-    const auto box = boxOfUsed(imported, used);
-    if (!box) return box.error();
-    WeldedMesh welded;
-    welded.mesh.center = 0.5 * (box->lower + box->upper);
-    addTriangles(imported, weld(imported, used, welded.mesh, welded.notes), welded.mesh, welded.notes);
-    if (welded.mesh.triangles.empty()) return badMesh("every triangle of the model has collapsed to a line or point");
-    return welded;
+    std::vector<uint32_t> triangles = withDistinctCorners(imported);
+    while (!triangles.empty()) {
+        const std::vector<char> used = verticesOf(imported, triangles);
+        const auto box = boxOf(imported, used);
+        if (!box) return box.error();
+        WeldedMesh welded = weldAround(*box, imported, used, triangles);
+        const auto left = boxOf(imported, verticesOf(imported, triangles));
+        if (left && isSameBox(*left, *box)) return welded;
+    }
+    return badMesh("every triangle of the model has collapsed to a line or point");
 }
 
 PreparedMesh finishMesh(WeldedMesh welded) {

@@ -14,7 +14,7 @@ constexpr double kMinDiagonal = 1e-10, kMaxDiagonal = 1e10;
 // What was done to the mesh on the way, for the doctor.
 struct PrepareNotes {
     uint32_t vertices_in = 0; // in the file
-    uint32_t unused = 0;      // of those, used by no triangle
+    uint32_t unused = 0;      // of those, used by no triangle that is left
     uint32_t welded = 0;      // of the rest, at the place of another
     uint32_t collapsed = 0;   // triangles dropped because two corners are one
     bool turned_inside_out = false;
