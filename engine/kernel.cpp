@@ -1,6 +1,7 @@
 #include "engine/kernel.h"
 
 #include "engine/device.h"
+#include "engine/kernel_storage.h"
 
 #include <algorithm>
 #include <atomic>
@@ -40,6 +41,15 @@ Result<void> checkInterface(const Kernel& kernel, const VkPhysicalDeviceLimits& 
         return refused(kernel.name, "has a workgroup of " + std::to_string(r.local_size[0]) + " lanes, the device takes 1 to " +
                                         std::to_string(most_lanes));
     return {};
+}
+
+Result<void> checkStorage(std::string_view kernel, std::span<const uint32_t> words, std::span<const SpecConstant> constants,
+                          const VkPhysicalDeviceLimits& limits) {
+    const uint64_t shared = storageOf(words, constants).shared.bytes;
+    if (shared <= limits.maxComputeSharedMemorySize) return {};
+    return Error{ErrorCode::Feature, refused(kernel, "shares " + std::to_string(shared) + " bytes in a group, the device has " +
+                                                         std::to_string(limits.maxComputeSharedMemorySize))
+                                         .message};
 }
 
 // What is thrown on a thread ends the process.
@@ -177,6 +187,7 @@ std::vector<SpecConstant> KernelLibrary::constantsOf(const Reflection& reflectio
 }
 
 Result<std::shared_ptr<const Pipeline>> KernelLibrary::makePipeline(const Kernel& kernel, std::span<const uint32_t> words) {
+    if (auto fits = checkStorage(kernel.name, words, kernel.constants, device_.limits()); !fits) return fits.error();
     const PipelineSource source{kernel.name, words, kernel.constants, kernel.bufferCount(), kernel.reflection.push_size};
     const auto make = [&] {
         const auto start = std::chrono::steady_clock::now();

@@ -5,9 +5,9 @@
 
 namespace engine {
 
-// Held while instances and devices are made, unmade and asked for their functions: loaders walk their lists of devices without a
-// lock (1.3.239 reads freed memory there), and volk keeps what it finds in globals. What a host makes and unmakes itself is the
-// host's to keep apart.
+// Held while instances and devices are made, unmade and asked for their functions: loaders walk their lists of devices without
+// a lock (1.3.239 reads freed memory there), and volk keeps what it finds in globals. What a host makes and unmakes itself is
+// the host's to keep apart.
 std::mutex& loaderMutex();
 
 } // namespace engine

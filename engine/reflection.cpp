@@ -12,8 +12,6 @@ namespace engine {
 
 namespace {
 
-constexpr size_t kHeaderWords = 5;
-
 ReflectedBinding bindingOf(const SpirvModule& parsed, const SpirvVariable& variable, uint32_t block,
                            const SpirvDecorations& decorations) {
     ReflectedBinding binding;
@@ -114,22 +112,14 @@ ShaderStage stageOf(spv::ExecutionModel model) {
 } // namespace
 
 Result<Reflection> reflect(std::span<const uint32_t> words) {
-    if (words.size() < kHeaderWords || words[0] != spv::MagicNumber) {
-        return Error{ErrorCode::BadInput, "not a SPIR-V module of this machine's byte order"};
-    }
-    SpirvModule parsed;
-    for (size_t at = kHeaderWords; at < words.size();) {
-        const size_t length = words[at] >> 16;
-        if (length == 0 || at + length > words.size()) return Error{ErrorCode::BadInput, "a SPIR-V module that ends early"};
-        if (length >= 3) parsed.instruction(static_cast<spv::Op>(words[at] & 0xffffu), words.subspan(at + 1, length - 1));
-        at += length;
-    }
+    const auto parsed = parseSpirv(words);
+    if (!parsed) return parsed.error();
     Reflection result;
-    result.stage = stageOf(parsed.model);
-    setLocalSize(parsed, result);
-    addVariables(parsed, result);
-    addStructs(parsed, result);
-    addSpecConstants(parsed, result);
+    result.stage = stageOf(parsed->model);
+    setLocalSize(*parsed, result);
+    addVariables(*parsed, result);
+    addStructs(*parsed, result);
+    addSpecConstants(*parsed, result);
     return result;
 }
 

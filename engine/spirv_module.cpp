@@ -37,6 +37,7 @@ void SpirvModule::instruction(spv::Op op, std::span<const uint32_t> w) {
     case spv::OpSpecConstant:
         if (w.size() > 2) constants[w[1]] = w[2];
         break;
+    case spv::OpSpecConstantOp: reckoned[w[1]] = {w.begin() + 2, w.end()}; break;
     case spv::OpConstantComposite:
     case spv::OpSpecConstantComposite: composites[w[1]] = {w.begin() + 2, w.end()}; break;
     case spv::OpVariable:
@@ -105,6 +106,20 @@ bool SpirvModule::allMembersHave(uint32_t id, spv::Decoration decoration) const 
         if (found == member_decorations.end() || !found->second.has(decoration)) return false;
     }
     return true;
+}
+
+Result<SpirvModule> parseSpirv(std::span<const uint32_t> words) {
+    constexpr size_t kHeaderWords = 5;
+    if (words.size() < kHeaderWords || words[0] != spv::MagicNumber)
+        return Error{ErrorCode::BadInput, "not a SPIR-V module of this machine's byte order"};
+    SpirvModule parsed;
+    for (size_t at = kHeaderWords; at < words.size();) {
+        const size_t length = words[at] >> 16;
+        if (length == 0 || at + length > words.size()) return Error{ErrorCode::BadInput, "a SPIR-V module that ends early"};
+        if (length >= 3) parsed.instruction(static_cast<spv::Op>(words[at] & 0xffffu), words.subspan(at + 1, length - 1));
+        at += length;
+    }
+    return parsed;
 }
 
 } // namespace engine

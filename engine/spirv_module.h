@@ -1,6 +1,8 @@
 // The instructions of a SPIR-V module that say what it looks like from outside, by id.
 #pragma once
 
+#include "engine/result.h"
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -38,7 +40,8 @@ struct SpirvModule {
     std::map<uint32_t, SpirvDecorations> decorations;
     std::map<std::pair<uint32_t, uint32_t>, SpirvDecorations> member_decorations;
     std::map<uint32_t, SpirvType> types;
-    std::map<uint32_t, uint32_t> constants; // by id, specialization constants with their defaults
+    std::map<uint32_t, uint32_t> constants;             // by id, specialization constants with their defaults
+    std::map<uint32_t, std::vector<uint32_t>> reckoned; // from specialization constants: operation and operands
     std::map<uint32_t, std::vector<uint32_t>> composites;
     std::vector<SpirvVariable> variables;
     std::array<uint32_t, 3> local_size = {1, 1, 1};
@@ -51,5 +54,8 @@ struct SpirvModule {
     const SpirvType* find(uint32_t id) const;
     bool allMembersHave(uint32_t id, spv::Decoration decoration) const;
 };
+
+// Errors: BadInput for words that are none.
+Result<SpirvModule> parseSpirv(std::span<const uint32_t> words);
 
 } // namespace engine

@@ -108,9 +108,9 @@ void FollowingReloader::take(const FolderChanges& changes, SaveTime saved) {
     std::set<KernelIndex> running, others;
     for (KernelIndex k = 0; k < kernels_.size(); ++k) {
         FollowedKernel& kernel = kernels_[k];
-        const bool is_meant = changes.everything || std::ranges::any_of(changes.files, [&](const fs::path& file) {
-                                  return kernel.files.contains(file);
-                              });
+        const bool is_meant =
+            changes.everything || !kernel.latest.knows_files ||
+            std::ranges::any_of(changes.files, [&](const fs::path& file) { return kernel.files.contains(file); });
         if (!is_meant || !kernel.wasChecked()) continue; // one that was not will be, as it is then
         ++kernel.version;
         kernel.waits = true;
@@ -123,6 +123,7 @@ void FollowingReloader::take(const FolderChanges& changes, SaveTime saved) {
 }
 
 void FollowingReloader::compileAll() {
+    CheckingProcess process({.shared_bytes = device_.limits().maxComputeSharedMemorySize});
     for (;;) {
         std::optional<KernelIndex> next;
         {
@@ -132,7 +133,7 @@ void FollowingReloader::compileAll() {
             kernels_[*next].waits = false;
             ++kernels_[*next].compiling;
         }
-        compileOne(*next);
+        compileOne(process, *next);
         const std::lock_guard lock(mutex_);
         --kernels_[*next].compiling;
         work_.notify_all();
@@ -158,7 +159,7 @@ std::optional<KernelIndex> FollowingReloader::nextToCompile() const {
     return best;
 }
 
-void FollowingReloader::compileOne(KernelIndex index) {
+void FollowingReloader::compileOne(CheckingProcess& process, KernelIndex index) {
     FollowedKernel kernel; // as it was asked for
     {
         const std::lock_guard lock(mutex_);
@@ -168,7 +169,10 @@ void FollowingReloader::compileOne(KernelIndex index) {
     std::vector<LibraryReplacement> ready;
     bool is_known = true;
     try {
-        checked = checkKernel(kernel.source, kernel.host, options_.include_folders);
+        checked = process.check(kernel.source, kernel.host, options_.include_folders, [&] {
+            const std::lock_guard lock(mutex_);
+            return stops_ || kernels_[index].version != kernel.version;
+        });
         is_known = watchFilesOf(checked);
         if (is_known && checked.good() && !kernel.isTaken(checked.words)) ready = prepare(kernel, checked);
     } catch (const std::exception& thrown) { // nothing that is thrown here is worth the process
@@ -180,7 +184,7 @@ void FollowingReloader::compileOne(KernelIndex index) {
     std::erase_if(ready, [&](const LibraryReplacement& made) { return std::ranges::count(libraries_, made.library) == 0; });
     FollowedKernel& followed = kernels_[index];
     rememberFiles(followed, checked);
-    if (followed.version != kernel.version) return; // it waits again already
+    if (stops_ || followed.version != kernel.version) return; // it waits again already
     if (!is_known) {
         followed.waits = true; // what was read may have changed before it was watched
         work_.notify_all();

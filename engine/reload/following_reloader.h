@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/reload/ahead_compiler.h"
+#include "engine/reload/checking_process.h"
 #include "engine/reload/folder_watch.h"
 #include "engine/reload/followed_kernel.h"
 #include "engine/reload/shader_reloader.h"
@@ -49,7 +50,7 @@ private:
     void take(const FolderChanges& changes, SaveTime saved);
     void compileAll();
     std::optional<KernelIndex> nextToCompile() const;
-    void compileOne(KernelIndex index);
+    void compileOne(CheckingProcess& process, KernelIndex index);
     void rememberFiles(FollowedKernel& kernel, const CheckedKernel& checked) const;
     bool watchFilesOf(const CheckedKernel& checked);
     std::vector<LibraryReplacement> prepare(const FollowedKernel& kernel, CheckedKernel& checked);

@@ -130,6 +130,19 @@ void explain(const KernelSource& source, std::vector<Diagnostic>& diagnostics) {
 
 } // namespace
 
+void prepareCompiler() {
+    startCompiler();
+    static const bool kIsPrepared = [] {
+        const KernelSource nothing = {"nothing", "nothing.comp", {}};
+        std::vector<Diagnostic> diagnostics;
+        IncludeFinder includes(nothing.file, {});
+        Parsing parsing(nothing, EShLangCompute, "#version 450\nvoid main() {}\n");
+        const std::vector<uint32_t> raw = translate(nothing, parsing, includes, diagnostics);
+        return !raw.empty() && !finish(nothing, raw, diagnostics).empty();
+    }();
+    static_cast<void>(kIsPrepared);
+}
+
 CompiledKernel compileGlsl(const KernelSource& source, const std::vector<std::filesystem::path>& include_folders) {
     startCompiler();
     CompiledKernel result;

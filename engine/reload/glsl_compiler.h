@@ -26,6 +26,9 @@ struct CompiledKernel {
     bool good() const { return !words.empty(); }
 };
 
+// What any compilation needs that is made only once. A process that is forked after it has been made has it, too.
+void prepareCompiler();
+
 // Includes in quotes are looked for next to the file that names them, then next to the files that include that one, then in
 // `include_folders`, in order. Safe from any thread.
 CompiledKernel compileGlsl(const KernelSource& source, const std::vector<std::filesystem::path>& include_folders);

@@ -1,5 +1,7 @@
 #include "engine/reload/kernel_check.h"
 
+#include "engine/kernel_storage.h"
+#include "engine/reload/checking_process.h"
 #include "engine/reload/declarations.h"
 
 #include <algorithm>
@@ -22,6 +24,23 @@ std::vector<Diagnostic> compare(const shaders::Module& host, std::span<const uin
     if (!before || !now) return {{Severity::Error, source.file.string(), 0, 0, (before ? now : before).error().message}};
     const auto changes = interfaceChanges(*before, *now);
     return changes.empty() ? std::vector<Diagnostic>() : placeChanges(changes, source, include_folders);
+}
+
+void checkPart(const KernelStorage::Part& part, uint64_t most, const char* where, const KernelSource& source,
+               std::vector<Diagnostic>& errors) {
+    if (part.bytes <= most) return;
+    const std::string name = part.largest.empty() ? "one variable" : "\"" + part.largest + "\"";
+    errors.push_back({Severity::Error, source.file.string(), 0, 0,
+                      "kernel \"" + source.name + "\": keeps " + std::to_string(part.bytes) + " bytes " + where + ", " + name +
+                          " alone " + std::to_string(part.largest_bytes) + "; the most is " + std::to_string(most)});
+}
+
+std::vector<Diagnostic> checkStorage(std::span<const uint32_t> words, const KernelSource& source, const StorageLimits& limits) {
+    const KernelStorage storage = storageOf(words, {});
+    std::vector<Diagnostic> errors;
+    checkPart(storage.shared, limits.shared_bytes, "in memory that its groups share", source, errors);
+    checkPart(storage.lane, limits.lane_bytes, "for every lane", source, errors);
+    return errors;
 }
 
 bool isKernel(const fs::path& file) {
@@ -48,18 +67,17 @@ KernelSource sourceOf(const shaders::Module& module, const fs::path& folder) {
     return source;
 }
 
-CheckedKernel checkKernel(const KernelSource& source, const shaders::Module* host,
-                          const std::vector<fs::path>& include_folders) {
+CheckedKernel checkKernel(const KernelSource& source, const shaders::Module* host, const std::vector<fs::path>& include_folders,
+                          const StorageLimits& limits) {
     const auto start = std::chrono::steady_clock::now();
     CompiledKernel compiled = compileGlsl(source, include_folders);
     CheckedKernel checked = {nullptr, std::move(compiled.diagnostics), std::move(compiled.files)};
-    bool fits = compiled.good();
-    if (fits && host != nullptr) {
-        const auto errors = compare(*host, compiled.words, source, include_folders);
-        checked.diagnostics.insert(checked.diagnostics.end(), errors.begin(), errors.end());
-        fits = errors.empty();
-    }
-    if (fits) checked.words = std::make_shared<const std::vector<uint32_t>>(std::move(compiled.words));
+    std::vector<Diagnostic> errors;
+    if (compiled.good()) errors = checkStorage(compiled.words, source, limits);
+    if (compiled.good() && errors.empty() && host != nullptr) errors = compare(*host, compiled.words, source, include_folders);
+    checked.diagnostics.insert(checked.diagnostics.end(), errors.begin(), errors.end());
+    if (compiled.good() && errors.empty())
+        checked.words = std::make_shared<const std::vector<uint32_t>>(std::move(compiled.words));
     checked.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return checked;
 }
@@ -87,8 +105,9 @@ std::vector<CheckedKernel> checkKernels(const std::vector<FolderKernel>& kernels
     std::mutex mutex;
     size_t done = 0;
     const auto work = [&] {
+        CheckingProcess process;
         for (size_t k = next++; k < kernels.size(); k = next++) {
-            checked[k] = checkKernel(kernels[k].source, kernels[k].host, include_folders);
+            checked[k] = process.check(kernels[k].source, kernels[k].host, include_folders);
             const std::lock_guard lock(mutex);
             if (progress) progress(++done);
         }

@@ -7,14 +7,6 @@ namespace {
 
 constexpr size_t kMostNames = 6;
 
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (size_t k = 0; k < names.size() && k < kMostNames; ++k)
-        text += (k == 0 ? "" : ", ") + names[k];
-    if (names.size() > kMostNames) text += " and " + std::to_string(names.size() - kMostNames) + " more";
-    return text;
-}
-
 std::string timesOf(const ReloadEvent& event) {
     char text[96];
     if (event.at_start)
@@ -27,8 +19,16 @@ std::string timesOf(const ReloadEvent& event) {
 
 } // namespace
 
+std::string listOf(const std::vector<std::string>& kernels) {
+    std::string text;
+    for (size_t k = 0; k < kernels.size() && k < kMostNames; ++k)
+        text += (k == 0 ? "" : ", ") + kernels[k];
+    if (kernels.size() > kMostNames) text += " and " + std::to_string(kernels.size() - kMostNames) + " more";
+    return text;
+}
+
 std::string textOf(const ReloadEvent& event) {
-    const std::string names = listed(event.kernels);
+    const std::string names = listOf(event.kernels);
     switch (event.kind) {
     case ReloadEvent::Kind::Reloaded: return "reloaded " + names + timesOf(event);
     case ReloadEvent::Kind::Checked:
@@ -36,7 +36,7 @@ std::string textOf(const ReloadEvent& event) {
     case ReloadEvent::Kind::Unchanged: return "unchanged " + names + ": compiles to what it was";
     case ReloadEvent::Kind::Refused:
         if (!event.runs) return "refused " + names + "; nothing that runs here uses it";
-        return "kept the last good " + names + (event.waiting.empty() ? "" : "; waiting for it: " + listed(event.waiting));
+        return "kept the last good " + names + (event.waiting.empty() ? "" : "; waiting for it: " + listOf(event.waiting));
     case ReloadEvent::Kind::Trouble: break;
     }
     return event.message;

@@ -27,6 +27,8 @@ struct ReloadEvent {
     double since_save_ms = 0;
 };
 
+// By name as far as they are few.
+std::string listOf(const std::vector<std::string>& kernels);
 // One line, without diagnostics: "reloaded end_step, 41 ms after it was saved (compiled in 18 ms)".
 std::string textOf(const ReloadEvent& event);
 

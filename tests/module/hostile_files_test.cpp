@@ -178,15 +178,16 @@ class HostileFile : public testing::TestWithParam<Hostile> {};
 // In a process with little memory to spare: counts that lie must not be believed.
 TEST_P(HostileFile, IsRefusedOrReadForWhatItIs) {
     const Hostile& file = GetParam();
-    const auto outcome = runIsolated(
+    const auto outcome = engine::runIsolated(
         [&] {
             const auto imported = importMesh(file.bytes, file.ending);
             return refusalOf(imported) + "\n" + refusalWithRepairOf(imported);
         },
         {.seconds = 60, .bytes = uint64_t{1500} << 20});
-    ASSERT_TRUE(outcome) << outcome.error().message;
-    const std::string refusal = outcome->substr(0, outcome->find('\n')), repaired = outcome->substr(refusal.size() + 1);
-    EXPECT_EQ(repaired.find('\n'), std::string::npos) << *outcome;
+    ASSERT_TRUE(outcome.isDone()) << static_cast<int>(outcome.end);
+    const std::string& said = outcome.answer;
+    const std::string refusal = said.substr(0, said.find('\n')), repaired = said.substr(refusal.size() + 1);
+    EXPECT_EQ(repaired.find('\n'), std::string::npos) << said;
     EXPECT_NE(repaired, "not mended");
     EXPECT_EQ(refusal.empty(), *file.refusal == '\0') << refusal;
     EXPECT_TRUE(saysOneOf(refusal, file.refusal)) << refusal;
@@ -283,12 +284,12 @@ TEST_F(OddPaths, AreRefused) {
 TEST_F(OddPaths, AFileThatMayNotBeReadIsRefused) {
     std::ofstream(folder_ / "secret.obj") << kCorners << kFaces;
     std::filesystem::permissions(folder_ / "secret.obj", std::filesystem::perms::none);
-    const auto said = runIsolated([&] {
+    const auto said = engine::runIsolated([&] {
         constexpr uid_t kNobody = 65534;
         return geteuid() != 0 || seteuid(kNobody) == 0 ? refusal("secret.obj") : std::string("still root");
     });
-    ASSERT_TRUE(said);
-    EXPECT_NE(said->find("secret.obj: cannot be read; check its permissions"), std::string::npos) << *said;
+    ASSERT_TRUE(said.isDone());
+    EXPECT_NE(said.answer.find("secret.obj: cannot be read; check its permissions"), std::string::npos) << said.answer;
 }
 
 // ---- models written back ----------------------------------------------------------------------------------------------------

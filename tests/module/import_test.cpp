@@ -1,6 +1,5 @@
 #include "modules/brittle/mesh/check.h"
 #include "modules/brittle/mesh/import.h"
-#include "modules/brittle/mesh/isolated.h"
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/vector_math.h"
@@ -188,28 +187,6 @@ TEST(Import, TransformsOfNodesApply) {
     EXPECT_FALSE(model->notes.turned_inside_out);
     EXPECT_EQ(model->mesh.center, (Double3{999999.5, 0.5, 0.5}));
     EXPECT_TRUE(checkMesh(model->mesh, model->topology));
-}
-
-TEST(Isolation, SurvivesWhateverTheWorkDoes) {
-    EXPECT_EQ(*runIsolated([] { return std::string("a\0b", 3); }), std::string("a\0b", 3));
-    std::string large = std::string(1000, 'x') + std::string(900'000, 'y');
-    EXPECT_EQ(*runIsolated([&] { return large; }), large);
-    EXPECT_FALSE(runIsolated([]() -> std::string { std::abort(); }));
-    EXPECT_FALSE(runIsolated([]() -> std::string { throw 1; }));
-    EXPECT_FALSE(runIsolated([]() -> std::string { throw std::bad_alloc(); }));
-    EXPECT_FALSE(runIsolated([]() -> std::string { _exit(0); }));
-    EXPECT_FALSE(runIsolated(
-        []() -> std::string {
-            for (;;)
-                std::this_thread::yield();
-        },
-        {.seconds = 1}));
-}
-
-TEST(Isolation, LimitsMemory) {
-    if (!brittle::isolationLimitsMemory()) GTEST_SKIP() << "the address sanitizer reserves terabytes of addresses";
-    EXPECT_FALSE(runIsolated([] { return std::string(size_t{1} << 30, 'x').substr(0, 1); }, {.bytes = 100 << 20}));
-    EXPECT_TRUE(runIsolated([] { return std::string(size_t{50} << 20, 'x').substr(0, 1); }, {.bytes = 200 << 20}));
 }
 
 // Files spoiled at random: refused or read, never more.

@@ -1,5 +1,6 @@
 #include "tests/engine/test_device.h"
 #include "tests/reload/following.h"
+#include "tests/reload/hostile_sources.h"
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,8 @@ protected:
         (*following_)->attach(*library_);
         following_->next(Kind::Checked); // all that does not run; what does comes before
     }
+
+    void stopFollowing() { following_.reset(); }
 
     Following& reloader() { return *following_; }
     KernelLibrary& library() { return *library_; }
@@ -149,6 +152,50 @@ TEST_F(Reload, RefusesAHalfWrittenFileAndTakesTheWhole) {
     save(whole);
     reloader().next(Kind::Reloaded, "increment");
     EXPECT_EQ(added(), 3u);
+}
+
+TEST_F(Reload, KeepsTheLastGoodOneOfWhatTheCompilerDiesOf) {
+    save(source() + replaced(replaced(sumOfTerms(200'000), "void main", "void never"), "b[0] =", "uint b[2]; b[0] ="));
+    expectRefused("the compiler dies of it");
+    expectMended();
+}
+
+// Also where the reason lies in a file that the compiler had not yet told of.
+TEST_F(Reload, FindsWhatWasMendedInAFileThatTheCompilerDiedOf) {
+    const std::string deadly =
+        replaced(replaced(sumOfTerms(200'000), "void main", "void never"), "b[0] =", "uint b[2]; b[0] =");
+    write("lib/deadly.glsl", deadly);
+    save(replaced(adding("4u"), "#include \"lib/dispatch.glsl\"",
+                  "#include \"lib/dispatch.glsl\"\n#include \"lib/deadly.glsl\""));
+    expectRefused("the compiler dies of it");
+    write("lib/deadly.glsl", "// mended\n");
+    reloader().next(Kind::Reloaded, "increment");
+    EXPECT_EQ(added(), 4u);
+}
+
+TEST_F(Reload, LeavesOffWhatNobodyWantsAnyMore) {
+    save(replaced(source(), "void main", replaced(doublingMacros(40), "void main", "void never") + "void main"));
+    while (!reloader()->isAwaited())
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    save(adding("3u"));
+    const std::vector<ReloadEvent> said = reloader().settle();
+    ASSERT_EQ(said.size(), 1u) << textOf(said[0]);
+    EXPECT_EQ(said[0].kind, Kind::Reloaded);
+    EXPECT_EQ(added(), 3u);
+    save(replaced(source(), "void main", replaced(doublingMacros(40), "void main", "void never") + "void main"));
+    while (!reloader()->isAwaited())
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto begun = std::chrono::steady_clock::now();
+    stopFollowing();
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5)) << "its end waits for no compiler";
+}
+
+// What the driver would make of it nobody knows.
+TEST_F(Reload, RefusesWhatTheDeviceHasNoMemoryFor) {
+    save(replaced(replaced(source(), "void main", "shared uint heap[100000];\nvoid main"), "words[i] += 1u;",
+                  "heap[words[i]] = 1u, words[i] += heap[words[0]];"));
+    expectRefused("\"heap\" alone 400000");
+    expectMended();
 }
 
 TEST_F(Reload, DoesNotLookAtAFileThatIsBeingWritten) {

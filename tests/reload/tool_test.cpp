@@ -84,8 +84,7 @@ TEST_F(ReloadTool, StepsASceneOnWhileItIsEdited) {
     ASSERT_TRUE(tool.says("watching", kPatience));
     write(name, replaced(source, "uint b = flatIndex();", "uint b = ;"));
     EXPECT_TRUE(tool.says("kept the last good end_step", kPatience));
-    write(name,
-          replaced(source, "(bodies[b].sector.w & BODY_HANGS) != 0", "(bodies[b].sector.w & BODY_HANGS) == BODY_HANGS"));
+    write(name, replaced(source, "(bodies[b].sector.w & BODY_HANGS) != 0", "(bodies[b].sector.w & BODY_HANGS) == BODY_HANGS"));
     EXPECT_TRUE(tool.says("reloaded end_step", kPatience));
     EXPECT_TRUE(tool.says("  end_step: ", kPatience)); // its times before and after
     tool.interrupt();
@@ -97,6 +96,30 @@ TEST_F(ReloadTool, StepsASceneOnWhileItIsEdited) {
     const std::string steps = outcome.out.substr(outcome.out.rfind('\n', ending) + 1);
     const auto count = static_cast<uint32_t>(std::stoul(steps));
     EXPECT_EQ(steps, std::to_string(count) + " steps, state " + hashAfter("stack_10", count) + "\n");
+}
+
+// Sound kernels, of which one spoils the bodies and one makes every step fail.
+TEST_F(ReloadTool, BeginsASceneAnewThatAnEditHasSpoiled) {
+    copyKernels();
+    const std::string name = "solver/end_step.comp", source = read(name);
+    const std::string begin = "uint b = flatIndex();";
+    support::RunningProgram tool("shader_reload", {"--scene", "stack_10", folder().string()});
+    ASSERT_TRUE(tool.says("watching", kPatience));
+    write(name,
+          replaced(source, begin,
+                   begin + "\n    if (b < counts[COUNT_BODIES]) bodies[b].offset.xyz = vec3(uintBitsToFloat(0x7fc00000u));"));
+    EXPECT_TRUE(tool.says("reloaded end_step", kPatience));
+    write(name, replaced(source, begin, begin + "\n    counts[STATUS_FAILED] = 1u;"));
+    EXPECT_TRUE(tool.says("failed, with end_step reloaded last: ", kPatience));
+    EXPECT_TRUE(tool.says("; the scene begins anew\n", kPatience));
+    write(name, source);
+    const std::string other = "solver/move_bodies.comp";
+    write(other, replaced(read(other), "s.velocity.w == 0.0", "s.velocity.w == 0.0 || b == 0xfffffff0u"));
+    EXPECT_TRUE(tool.says("  move_bodies: ", kPatience)) << "its times, sixty steps on";
+    tool.interrupt();
+    const support::Outcome outcome = tool.wait();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(has(outcome.out, " steps, state ")) << outcome.out;
 }
 
 TEST(KernelTimes, AreMediansBeforeAndAfter) {

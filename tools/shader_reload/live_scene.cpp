@@ -25,6 +25,8 @@ constexpr size_t kTimedSteps = 60;
 // most.
 constexpr int kYield = 4;
 constexpr std::chrono::milliseconds kLongestRest{100};
+// Until a scene in which a step failed is tried again, if nothing is saved before.
+constexpr std::chrono::milliseconds kBeforeNextTry{500};
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -41,15 +43,15 @@ public:
         const auto pace = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(staged_.scene.step.dt));
         for (Clock::time_point next = Clock::now(); goesOn(); next = std::max(next + pace, Clock::now() - pace)) {
             const Clock::time_point begun = Clock::now();
-            if (auto stepped = step(); !stepped) return stepped;
-            if (window_ != nullptr)
-                if (auto shown = window_->show(); !shown) return shown;
+            if (begun >= next_try_)
+                if (auto stepped = stepAndShow(); !stepped)
+                    if (auto begun_anew = beginAnew(stepped.error()); !begun_anew) return begun_anew;
             if (is_cpu_ && reloader_.isAwaited()) next = std::max(next, Clock::now() + restAfter(Clock::now() - begun));
             do {
                 if (auto followed = follow(); !followed) return followed;
             } while (reloader_.waitUntil(next));
         }
-        return tellEnd();
+        return failure_ ? Result<void>(*failure_) : tellEnd();
     }
 
 private:
@@ -73,7 +75,30 @@ private:
         if (!event.diagnostics.empty()) std::fprintf(stderr, "%s\n", textOf(event.diagnostics).c_str());
         std::printf("%s\n", textOf(event).c_str());
         std::fflush(stdout);
-        if (event.kind == ReloadEvent::Kind::Reloaded) times_.reloaded(event.kernels);
+        if (event.kind != ReloadEvent::Kind::Reloaded) return;
+        times_.reloaded(event.kernels);
+        latest_ = event.kernels;
+        failure_.reset();
+        next_try_ = {};
+    }
+
+    Result<void> stepAndShow() {
+        if (auto stepped = step(); !stepped) return stepped;
+        failure_.reset();
+        return window_ != nullptr ? window_->show() : Result<void>();
+    }
+
+    // Kernels may be sound and spoil what they work on until a step fails. Whoever has just edited them wants to know, and to
+    // go on; a failure of which no edit can be the reason is an end.
+    Result<void> beginAnew(const engine::Error& why) {
+        if (latest_.empty()) return why;
+        if (!failure_)
+            std::printf("step %u failed, with %s reloaded last: %s; the scene begins anew\n", steps_ + 1,
+                        engine::listOf(latest_).c_str(), why.message.c_str());
+        failure_ = why;
+        next_try_ = Clock::now() + kBeforeNextTry;
+        ++steps_; // one that was asked for
+        return world_.restore(beginning_);
     }
 
     Result<void> step() {
@@ -107,6 +132,9 @@ private:
     engine::KernelTimes times_{kTimedSteps};
     std::vector<std::byte> beginning_;
     uint32_t steps_ = 0;
+    std::vector<std::string> latest_;      // kernels, of the last edit that was taken over
+    std::optional<engine::Error> failure_; // of the last step
+    Clock::time_point next_try_;
 };
 
 void stopWhenInterrupted() {

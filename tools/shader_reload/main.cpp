@@ -17,7 +17,8 @@ constexpr const char* kFooter =
     "  shader_reload --scene house.toml --window shaders-spirv\n"
     "  shader_reload --once shaders-spirv\n"
     "\n"
-    "Mistakes are printed as FILE:LINE:COLUMN: error: MESSAGE, without what the compiler does not tell. What is not fit leaves the last good version running.\n"
+    "Mistakes are printed as FILE:LINE:COLUMN: error: MESSAGE, without what the compiler does not tell. What is not fit leaves "
+    "the last good version running.\n"
     "Exit codes: 0 done and, with --once, all sound; 2 bad usage, bad input or kernels that are not fit; 3 too large for a "
     "pool;\n"
     "4 no device; 1 a bug of ours.";

@@ -12,7 +12,9 @@ engine::Error refusal() {
 } // namespace
 
 engine::Result<ImportedMesh> importMesh(const std::filesystem::path&) { return refusal(); }
-engine::Result<ImportedMesh> importMesh(std::string_view, std::string_view, const IsolationLimits&) { return refusal(); }
+engine::Result<ImportedMesh> importMesh(std::string_view, std::string_view, const engine::IsolationLimits&) {
+    return refusal();
+}
 engine::Result<ImportedMesh> importMesh(std::string_view, std::string_view) { return refusal(); }
 
 } // namespace brittle

@@ -1,6 +1,5 @@
 #include "modules/brittle/mesh/import.h"
 
-#include "modules/brittle/mesh/isolated.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/vector_math.h"
 
@@ -213,17 +212,26 @@ engine::Result<ImportedMesh> decode(std::string_view bytes) {
     return mesh;
 }
 
-IsolationLimits limitsFor(uintmax_t size) {
-    IsolationLimits limits;
+engine::IsolationLimits limitsFor(uintmax_t size) {
+    engine::IsolationLimits limits;
     limits.bytes = (uint64_t{1} << 30) + 400 * uint64_t{size};
     return limits;
 }
 
+engine::Error failedBy(engine::IsolatedRun::End end, const engine::IsolationLimits& limits) {
+    using End = engine::IsolatedRun::End;
+    if (end == End::NotBegun) return {engine::ErrorCode::Internal, "no process to be had from the system"};
+    if (end == End::OutOfMemory) return badInput("reading it takes too much memory; the file is damaged or too large");
+    if (end == End::OutOfTime)
+        return badInput("reading it takes longer than " + std::to_string(limits.seconds) + " s; the file is damaged");
+    return badInput("the reader failed on it; the file is damaged, export it again");
+}
+
 template <class Read>
-engine::Result<ImportedMesh> importIsolated(const Read& read, const IsolationLimits& limits) {
-    const auto bytes = runIsolated([&] { return encode(read()); }, limits);
-    if (!bytes) return bytes.error();
-    return decode(*bytes);
+engine::Result<ImportedMesh> importIsolated(const Read& read, const engine::IsolationLimits& limits) {
+    const auto run = engine::runIsolated([&] { return encode(read()); }, limits);
+    if (!run.isDone()) return failedBy(run.end, limits);
+    return decode(run.answer);
 }
 
 using Reader = engine::Result<ImportedMesh> (*)(std::string_view);
@@ -258,7 +266,8 @@ engine::Result<ImportedMesh> importUnnamed(const std::filesystem::path& path) {
 
 } // namespace
 
-engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending, const IsolationLimits& limits) {
+engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending,
+                                        const engine::IsolationLimits& limits) {
     const std::string lower = lowerCase(std::string(ending));
     if (auto known = checkEnding(lower); !known) return known.error();
     if (bytes.empty()) return badInput("the file is empty");

@@ -1,13 +1,13 @@
 // Reads a model from a file: OBJ, PLY, STL and OFF by readers of our own, which keep doubles; GLB, glTF, FBX and DAE by assimp.
 //
-// Assimp aborts, crashes or goes round in circles on some broken files. It runs in a process of its own (mesh/isolated.h) that
-// is forked for the one file, so that none of this reaches the caller's process. What it hands over is believed no more than
-// a file.
+// Assimp aborts, crashes or goes round in circles on some broken files. It runs in a process of its own (engine/isolated.h)
+// that is forked for the one file, so that none of this reaches the caller's process. What it hands over is believed no more
+// than a file.
 #pragma once
 
+#include "engine/isolated.h"
 #include "engine/result.h"
 #include "modules/brittle/mesh/imported_mesh.h"
-#include "modules/brittle/mesh/isolated.h"
 
 #include <filesystem>
 #include <string_view>
@@ -20,7 +20,7 @@ engine::Result<ImportedMesh> importMesh(const std::filesystem::path& path);
 
 // The same from memory; `ending` tells the format, dot and all. What lies in other files beside it (the buffers of a glTF) is
 // missing. The limits are those of assimp's process; by default as for a file of that size.
-engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending, const IsolationLimits& limits);
+engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending, const engine::IsolationLimits& limits);
 engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending);
 
 } // namespace brittle
