@@ -255,10 +255,9 @@ bool somethingRuns(std::span<const ReloadEvent> events) {
 }
 
 Result<std::unique_ptr<ShaderReloader>> ShaderReloader::start(Device& device, ReloadOptions options) {
-    const auto hasFile = [&](const shaders::Module& module) {
-        std::error_code error;
-        return fs::exists(options.folder / module.file, error);
-    };
+    std::error_code error;
+    if (!fs::is_directory(options.folder, error)) return Error{ErrorCode::BadInput, options.folder.string() + ": is no folder"};
+    const auto hasFile = [&](const shaders::Module& module) { return fs::exists(options.folder / module.file, error); };
     if (std::ranges::none_of(options.modules, hasFile))
         return Error{ErrorCode::BadInput, options.folder.string() + ": has none of the kernels that run here; give the folder "
                                                                     "that holds their table, such as shaders-spirv"};

@@ -100,6 +100,7 @@ typedef struct BrittleBody {
 typedef struct BrittleVec3 {
     double x, y, z;
 } BrittleVec3;
+/* What is handed over may have any length from 1e-6 on; each number from -1000 to 1000. */
 typedef struct BrittleQuat {
     double x, y, z, w;
 } BrittleQuat;

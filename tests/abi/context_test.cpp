@@ -212,6 +212,8 @@ TEST(SmallAbi, ChecksMaterials) {
     EXPECT_EQ(made([](BrittleMaterialDef& d) { d.poisson_ratio = 0.7; }), BRITTLE_BAD_VALUE);
     EXPECT_EQ(made([](BrittleMaterialDef& d) { d.youngs_modulus = std::nan(""); }), BRITTLE_BAD_VALUE);
     EXPECT_EQ(made([](BrittleMaterialDef& d) { d.like = "glas"; }), BRITTLE_BAD_VALUE);
+    EXPECT_EQ(made([](BrittleMaterialDef& d) { d.like = "gl\nass\t"; }), BRITTLE_BAD_VALUE);
+    EXPECT_NE(host.error().find("gl ass "), std::string::npos) << "a message is one line: " << host.error();
     EXPECT_NE(host.error().find("glass"), std::string::npos) << "the nearest name there is: " << host.error();
     EXPECT_EQ(made([](BrittleMaterialDef& d) { d.like = nullptr; }), BRITTLE_NULL_ARGUMENT);
     EXPECT_EQ(brittleFindMaterial(host, "oak", &material), BRITTLE_BAD_VALUE);

@@ -142,6 +142,12 @@ TEST(SmallAbiWorld, SaysWhichFieldIsWrongByItsName) {
     const std::string turn = of_body([](BrittleBodyDef& d) { d.rotation = {0, 0, 0, 0}; });
     EXPECT_NE(turn.find("'rotation'"), std::string::npos) << turn;
     EXPECT_EQ(turn.find("axis"), std::string::npos) << turn;
+    for (const double part : {1e-200, 1e-7, 1e7, 1e200}) {
+        const std::string fault = of_body([&](BrittleBodyDef& d) { d.rotation = {part, part, part, part}; });
+        EXPECT_NE(fault.find(part < 1 ? "have a length of 2e-" : "each from -1000 to 1000"), std::string::npos) << fault;
+    }
+    EXPECT_EQ(brittleStartWorld(host, world), BRITTLE_BAD_VALUE);
+    EXPECT_NE(host.error().find("the world has no body; call brittleAddBody"), std::string::npos) << host.error();
     EXPECT_EQ(of_body([](BrittleBodyDef& d) { d.shape.kind = BRITTLE_SHAPE_HULL; }), "body 0: a hull needs 'points'");
     const std::string held = of_body([](BrittleBodyDef& d) { d.is_fixed = 1, d.spin.x = 1; });
     EXPECT_NE(held.find("has 'is_fixed' = 1 and a 'velocity' or a 'spin'"), std::string::npos) << held;

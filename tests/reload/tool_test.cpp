@@ -47,6 +47,23 @@ TEST_F(ReloadTool, ChecksAFolderOnceAndEndsWithACode) {
     EXPECT_TRUE(has(wrong.out, "1 sound, 1 refused")) << wrong.out;
 }
 
+TEST_F(ReloadTool, SaysWhatIsNoFolderAndTellsManyAlikeOnce) {
+    for (const std::string& place : {path("nowhere"), std::string("/dev/null")})
+        for (const auto& arguments : std::vector<std::vector<std::string>>{{"--once", place}, {place}}) {
+            const support::Outcome outcome = run(arguments);
+            EXPECT_EQ(outcome.exit_code, 2);
+            EXPECT_TRUE(has(outcome.err, place + ": is no folder")) << outcome.err;
+        }
+    EXPECT_TRUE(has(run({"--scene", "/dev/null", folder().string()}).err, "its name has to end in .toml"));
+    fs::create_directories(folder() / "solver");
+    fs::copy(fs::path(BRITTLE_SOURCE_DIR) / "shaders-spirv/solver/end_step.comp", folder() / "solver");
+    const support::Outcome outcome =
+        run({"--once", "-I", std::string(BRITTLE_SOURCE_DIR) + "/shaders-spirv", folder().string()});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(has(outcome.err, " more: cannot be read")) << outcome.err;
+    EXPECT_LT(std::ranges::count(outcome.err, '\n'), 12) << outcome.err;
+}
+
 TEST_F(ReloadTool, ComparesInterfacesWithThoseThatWereBuilt) {
     fs::create_directories(folder() / "primitives");
     const fs::path root = fs::path(BRITTLE_SOURCE_DIR) / "shaders-spirv";

@@ -12,6 +12,8 @@ bool isFile(const std::string& name) { return name.ends_with(".toml"); }
 
 engine::Result<brittle::SceneDescription> readSceneOrBuiltin(const std::string& name) {
     if (isFile(name)) return brittle::readScene(std::filesystem::path(name));
+    if (name.find('/') != std::string::npos)
+        return engine::Error{engine::ErrorCode::BadInput, name + ": is no scene file; its name has to end in .toml"};
     return brittle::makeBuiltinScene(name);
 }
 

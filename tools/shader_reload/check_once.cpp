@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
 
 namespace shader_reload {
 namespace {
@@ -21,12 +24,18 @@ bool isAsBuilt(const FolderKernel& kernel, const CheckedKernel& checked) {
     return std::ranges::equal(*checked.words, kernel.host->words);
 }
 
-// Many kernels share a mistake in what they include: it is told once.
+constexpr size_t kMostAlike = 8;
+
+// Many kernels share a mistake in what they include: it is told once. And many may have one alike, as where a folder is gone.
 void printMistakes(const std::vector<CheckedKernel>& checked) {
     std::set<std::string> told;
+    std::map<std::string, size_t> alike; // by message
     for (const CheckedKernel& kernel : checked)
         for (const engine::Diagnostic& diagnostic : kernel.diagnostics)
-            if (told.insert(textOf(diagnostic)).second) std::fprintf(stderr, "%s\n", textOf(diagnostic).c_str());
+            if (told.insert(textOf(diagnostic)).second && ++alike[diagnostic.message] <= kMostAlike)
+                std::fprintf(stderr, "%s\n", textOf(diagnostic).c_str());
+    for (const auto& [message, count] : alike)
+        if (count > kMostAlike) std::fprintf(stderr, "and %zu more: %s\n", count - kMostAlike, message.c_str());
 }
 
 Tally tallyOf(const std::vector<FolderKernel>& kernels, const std::vector<CheckedKernel>& checked) {
@@ -45,6 +54,9 @@ Tally tallyOf(const std::vector<FolderKernel>& kernels, const std::vector<Checke
 } // namespace
 
 engine::Result<bool> checkOnce(const Options& options) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(options.folder, error))
+        return engine::Error{engine::ErrorCode::BadInput, options.folder.string() + ": is no folder"};
     const std::vector<FolderKernel> kernels = engine::kernelsIn(options.folder, shaders::all());
     if (kernels.empty())
         return engine::Error{engine::ErrorCode::BadInput,

@@ -96,6 +96,8 @@ BrittleContext::~BrittleContext() {
 
 BrittleResult BrittleContext::fail(BrittleResult code, const char* message) noexcept {
     std::snprintf(last_error.data(), last_error.size(), "%s", message);
+    for (char* c = last_error.data(); *c != '\0'; ++c) // names that hosts have given may hold line breaks
+        if (static_cast<unsigned char>(*c) < 0x20) *c = ' ';
     tell(log, log_user, BRITTLE_LOG_ERROR, last_error.data());
     return code;
 }

@@ -13,6 +13,7 @@ struct Name {
 constexpr Name kNames[] = {{"'place'", "'position'"},
                            {"'turn'", "'rotation'"},
                            {", or an axis and degrees", ""},
+                           {"nothing is in the scene; give it a [[body]]", "the world has no body; call brittleAddBody"},
                            {"needs 'points' or a 'file'", "needs 'points'"},
                            {"is 'fixed' and has a", "has 'is_fixed' = 1 and a"},
                            {"'lifetime'", "'dust_lifetime'"},

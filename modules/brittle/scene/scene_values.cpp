@@ -59,7 +59,9 @@ std::string describeKind(const ValueRef& value, const Allowed& allowed) {
             [&](const std::string*) { return describeText(allowed); },
             [&](const ChoiceRef&) { return "one of " + listOf(allowed.names); },
             [&](const Double3*) { return "three numbers" + eachInRange(allowed); },
-            [](const Quaternion*) { return std::string("four numbers that are not all 0, or an axis and degrees"); },
+            [&](const Quaternion*) {
+                return "four numbers that are not all 0" + eachInRange(allowed) + ", or an axis and degrees";
+            },
             [&](const std::vector<Double3>*) { return "a list of points of three numbers" + eachInRange(allowed); },
             [&](const std::vector<std::string>*) { return "a list, without repeats, of " + listOf(allowed.names); },
         },
@@ -95,12 +97,15 @@ std::string faultOfPoints(const std::vector<Double3>& points, const Allowed& all
 }
 
 std::string faultOfTurn(const Quaternion& turn, const Allowed& allowed) {
-    double square = 0;
+    constexpr double kShortest = 1e-6;
+    double length = 0;
     for (const double x : turn) {
         if (!isIn(x, allowed)) return "holds " + formatNumber(x);
-        square += x * x;
+        length = std::hypot(length, x);
     }
-    return square > 1e-12 ? "" : "is no turn, since its numbers are all 0";
+    if (length == 0) return "is no turn, since its numbers are all 0";
+    if (length >= kShortest) return "";
+    return "is no turn: its four numbers have a length of " + formatNumber(length) + ", less than " + formatNumber(kShortest);
 }
 
 bool isNamed(const std::string& name, const Allowed& allowed) {
