@@ -83,7 +83,9 @@ typedef enum BrittleLogLevel { BRITTLE_LOG_INFO = 0, BRITTLE_LOG_WARNING = 1, BR
 
 typedef struct BrittleContext BrittleContext;
 
-/* Ids. All zeros is the id of nothing. An id of what is gone is never that of something else. */
+/* Ids. All zeros is the id of nothing. An id of what is gone is never that of something else, within a context, its first 16,384
+ * worlds and 16 million steps of one; but brittleRestoreState goes back in time: fragments that are made after it may have the ids of
+ * fragments that were made before it, after the state was saved. Contexts draw what tells their ids from those of others. */
 typedef struct BrittleMesh {
     uint64_t id;
 } BrittleMesh;
@@ -472,7 +474,8 @@ typedef struct BrittleCounts {
     uint32_t broken;       /* bodies since the beginning */
     uint32_t fragments;    /* that they became; some may have broken again */
     uint32_t expired;      /* fragments that have gone after their time */
-    uint32_t breaks_lost;  /* events that nobody asked for before they were overwritten: the device keeps the last 1024 */
+    uint32_t breaks_lost;  /* events so far that came to nobody: the device keeps the last 1024 that were not asked for, also by brittleGetCounts,
+                              the library 65,536 */
     uint32_t impacts_lost; /* likewise */
 } BrittleCounts;
 
@@ -541,7 +544,8 @@ BRITTLE_API BrittleResult brittleRecordDraws(BrittleContext* context, BrittleWor
                                              BrittleVec3 origin);
 /* [queue] The same, submitted and waited for. */
 BRITTLE_API BrittleResult brittleUpdateDraws(BrittleContext* context, BrittleWorld world, BrittleVec3 origin);
-/* What BrittleDrawnBody has of a body or a fragment. Touches no device. Errors: WRONG_HANDLE. */
+/* What BrittleDrawnBody has of a body or a fragment: the number of its slot, also of a fragment that is gone or never was, since this
+ * touches no device. Errors: WRONG_HANDLE. */
 BRITTLE_API BrittleResult brittleNumberOf(BrittleContext* context, BrittleWorld world, BrittleBody body, uint32_t* number);
 
 /* [queue] The surface of one body or fragment in memory: three vertices a triangle, about its center of mass, in the frame of

@@ -1,36 +1,10 @@
 // The host's allocator: all comes from it and goes back to it, and where it has none to give nothing is lost.
+#include "tests/abi/heap.h"
 #include "tests/abi/hosting.h"
-
-#include <cstdlib>
-#include <map>
 
 namespace {
 
 using namespace abi_test;
-
-struct Heap {
-    std::map<void*, size_t> blocks;
-    size_t allocations = 0, most = ~size_t{0};
-    bool mixed_up = false;
-
-    BrittleAllocator allocator() {
-        return {[](void* user, size_t size, size_t alignment) { return static_cast<Heap*>(user)->take(size, alignment); },
-                [](void* user, void* memory, size_t size, size_t) { static_cast<Heap*>(user)->give(memory, size); }, this};
-    }
-    void* take(size_t size, size_t alignment) {
-        if (allocations == most) return nullptr;
-        ++allocations;
-        void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-        blocks[memory] = size;
-        return memory;
-    }
-    void give(void* memory, size_t size) {
-        const auto found = blocks.find(memory);
-        mixed_up = mixed_up || found == blocks.end() || found->second != size;
-        if (found != blocks.end()) blocks.erase(found);
-        std::free(memory);
-    }
-};
 
 TEST(SmallAbiMemory, GivesBackAllThatItTookFromTheHostsAllocator) {
     const HostDevice device;
@@ -91,9 +65,7 @@ TEST(AbiMemory, ThatRunsOutLosesNoEvents) {
         EXPECT_EQ(brittleGetImpacts(host, scene.world, impacts, 64, &count), BRITTLE_OUT_OF_MEMORY) << "and again";
         heap.most = ~size_t{0};
         MUST(host, brittleGetBreaks(host, scene.world, breaks, 8, &count));
-        BrittleCounts counts = {};
-        counts.struct_size = sizeof counts;
-        MUST(host, brittleGetCounts(host, scene.world, &counts));
+        const BrittleCounts counts = countsOf(host, scene.world);
         EXPECT_GE(count, 1u);
         EXPECT_EQ(count, counts.broken);
         MUST(host, brittleGetImpacts(host, scene.world, impacts, 64, &count));

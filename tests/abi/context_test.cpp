@@ -20,6 +20,18 @@ struct Heard {
     }
 };
 
+TEST(SmallAbi, LogsLinesWhateverNamesHold) {
+    Heard heard;
+    BrittleContextDef def = brittleDefaultContextDef();
+    heard.listen(def);
+    def.vulkan.device_name = "no\nsuch\rdev\x1b[31m";
+    BrittleContext* context = nullptr;
+    EXPECT_NE(brittleCreateContext(&def, &context), BRITTLE_OK);
+    ASSERT_FALSE(heard.lines.empty());
+    for (const auto& [level, line] : heard.lines)
+        EXPECT_EQ(line.find_first_of("\n\r\x1b"), std::string::npos) << line;
+}
+
 TEST(SmallAbi, NamesEveryResultAndItsVersion) {
     EXPECT_EQ(brittleVersion(), BRITTLE_VERSION);
     std::map<std::string, int> names;

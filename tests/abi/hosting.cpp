@@ -68,6 +68,21 @@ std::vector<BrittleBreak> breaksOf(const Hosting& host, BrittleWorld world) {
     return breaks;
 }
 
+BrittleCounts countsOf(const Hosting& host, BrittleWorld world) {
+    BrittleCounts counts = {};
+    counts.struct_size = sizeof counts;
+    EXPECT_EQ(brittleGetCounts(host, world, &counts), BRITTLE_OK) << host.error();
+    return counts;
+}
+
+std::vector<std::byte> savedOf(const Hosting& host, BrittleWorld world) {
+    size_t size = 0;
+    EXPECT_EQ(brittleSaveState(host, world, nullptr, 0, &size), BRITTLE_OK) << host.error();
+    std::vector<std::byte> state(size);
+    EXPECT_EQ(brittleSaveState(host, world, state.data(), size, &size), BRITTLE_OK) << host.error();
+    return state;
+}
+
 uint64_t hashOf(const Hosting& host, BrittleWorld world) {
     uint64_t hash = 0;
     EXPECT_EQ(brittleHashState(host, world, &hash), BRITTLE_OK) << host.error();

@@ -3,6 +3,7 @@
 
 #include "tests/abi/host_device.h"
 
+#include <cstddef>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ Scene makeScene(const Hosting& host, const std::vector<BrittleBodyDef>& bodies);
 
 std::vector<BrittleBodyState> bodiesOf(const Hosting& host, BrittleWorld world);
 std::vector<BrittleBreak> breaksOf(const Hosting& host, BrittleWorld world);
+BrittleCounts countsOf(const Hosting& host, BrittleWorld world);
+std::vector<std::byte> savedOf(const Hosting& host, BrittleWorld world);
 uint64_t hashOf(const Hosting& host, BrittleWorld world);
 
 // A cube of edge 2 about the origin, without its last triangles.

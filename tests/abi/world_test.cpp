@@ -296,9 +296,7 @@ TEST(AbiWorld, BreaksWhatFallsHardEnoughAndTellsOfIt) {
         }
     }
     EXPECT_NEAR(volume, (mass - b.dust_mass) / whole.mass * 0.008, 1e-6);
-    BrittleCounts counts = {};
-    counts.struct_size = sizeof counts;
-    MUST(host, brittleGetCounts(host, scene.world, &counts));
+    const BrittleCounts counts = countsOf(host, scene.world);
     EXPECT_EQ(counts.broken, 1u);
     EXPECT_EQ(counts.fragments, b.fragments);
     EXPECT_EQ(counts.breaks_lost, 0u);
@@ -330,10 +328,7 @@ TEST(AbiWorld, TellsOfWhatWasHitAndDidNotBreak) {
     EXPECT_EQ(count, 0u) << "each is told once";
     EXPECT_EQ(brittleGetImpacts(host, scene.world, nullptr, 8, &count), BRITTLE_NULL_ARGUMENT);
     EXPECT_EQ(brittleGetImpacts(host, scene.world, impacts, 8, nullptr), BRITTLE_NULL_ARGUMENT);
-    BrittleCounts counts = {};
-    counts.struct_size = sizeof counts;
-    MUST(host, brittleGetCounts(host, scene.world, &counts));
-    EXPECT_EQ(counts.impacts_lost, 0u);
+    EXPECT_EQ(countsOf(host, scene.world).impacts_lost, 0u);
 }
 
 // Of one body and of all of them, with the ground among them.

@@ -127,7 +127,7 @@ TEST_F(ReloadTool, BeginsASceneAnewThatAnEditHasSpoiled) {
                    begin + "\n    if (b < counts[COUNT_BODIES]) bodies[b].offset.xyz = vec3(uintBitsToFloat(0x7fc00000u));"));
     EXPECT_TRUE(tool.says("reloaded end_step", kPatience));
     write(name, replaced(source, begin, begin + "\n    counts[STATUS_FAILED] = 1u;"));
-    EXPECT_TRUE(tool.says("failed, with end_step reloaded last: ", kPatience));
+    EXPECT_TRUE(tool.says("failed, after reloads of end_step (the latest first): ", kPatience));
     EXPECT_TRUE(tool.says("; the scene begins anew\n", kPatience));
     write(name, source);
     const std::string other = "solver/move_bodies.comp";
@@ -137,6 +137,24 @@ TEST_F(ReloadTool, BeginsASceneAnewThatAnEditHasSpoiled) {
     const support::Outcome outcome = tool.wait();
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
     EXPECT_TRUE(has(outcome.out, " steps, state ")) << outcome.out;
+}
+
+// Steps that are made and never counted would be made for ever.
+TEST_F(ReloadTool, BeginsASceneAnewWhoseStepsAreNotCounted) {
+    copyKernels();
+    const std::string name = "solver/end_step.comp", source = read(name);
+    support::RunningProgram tool("shader_reload", {"--scene", "bounce", folder().string()});
+    ASSERT_TRUE(tool.says("watching", kPatience));
+    write(name, replaced(source, "if (b == 0u) steps[STEPS_MADE]++;", ""));
+    EXPECT_TRUE(tool.says("neither counted nor called failed", kPatience));
+    write(name, replaced(source, "if (b == 0u) steps[STEPS_MADE]++;", "if (b == 0u) steps[STEPS_BODIES] = 0xfffffff0u;"));
+    EXPECT_TRUE(tool.says("the device counts 4294967280 bodies", kPatience));
+    write(name, source);
+    const std::string other = "solver/move_bodies.comp";
+    write(other, replaced(read(other), "s.velocity.w == 0.0", "s.velocity.w == 0.0 || b == 0xfffffff0u"));
+    EXPECT_TRUE(tool.says("  move_bodies: ", kPatience)) << "its times, sixty steps on";
+    tool.interrupt();
+    EXPECT_EQ(tool.wait().exit_code, 0);
 }
 
 TEST(KernelTimes, AreMediansBeforeAndAfter) {

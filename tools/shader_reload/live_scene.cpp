@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 namespace shader_reload {
 namespace {
@@ -64,8 +65,7 @@ private:
 
     Result<void> follow() {
         const std::vector<ReloadEvent> events = reloader_.swap();
-        if (engine::somethingRuns(events))
-            if (auto recorded = world_.kernelsChanged(); !recorded) return recorded;
+        if (auto taken_over = takeOver(events); !taken_over) return taken_over;
         for (const ReloadEvent& event : events)
             tell(event);
         return {};
@@ -77,9 +77,18 @@ private:
         std::fflush(stdout);
         if (event.kind != ReloadEvent::Kind::Reloaded) return;
         times_.reloaded(event.kernels);
-        latest_ = event.kernels;
-        failure_.reset();
+        std::erase_if(edited_, [&](const std::string& name) { return std::ranges::count(event.kernels, name) != 0; });
+        edited_.insert(edited_.begin(), event.kernels.begin(), event.kernels.end());
+    }
+
+    // What a version that made steps fail has left in the scene is nothing that the next one has to answer for.
+    Result<void> takeOver(const std::vector<ReloadEvent>& events) {
+        if (!engine::somethingRuns(events)) return {};
+        if (auto recorded = world_.kernelsChanged(); !recorded) return recorded;
         next_try_ = {};
+        if (!std::exchange(has_failed_, false)) return {};
+        failure_.reset();
+        return world_.restore(beginning_);
     }
 
     Result<void> stepAndShow() {
@@ -88,14 +97,16 @@ private:
         return window_ != nullptr ? window_->show() : Result<void>();
     }
 
-    // Kernels may be sound and spoil what they work on until a step fails. Whoever has just edited them wants to know, and to
-    // go on; a failure of which no edit can be the reason is an end.
+    // Kernels may be sound and spoil what they work on until a step fails. Whoever edits them wants to know, and to go on; a
+    // failure of which no edit can be the reason is an end.
     Result<void> beginAnew(const engine::Error& why) {
-        if (latest_.empty()) return why;
-        if (!failure_)
-            std::printf("step %u failed, with %s reloaded last: %s; the scene begins anew\n", steps_ + 1,
-                        engine::listOf(latest_).c_str(), why.message.c_str());
+        if (edited_.empty()) return why;
+        if (!has_failed_)
+            std::printf("step %u failed, after reloads of %s (the latest first): %s; the scene begins anew\n", steps_ + 1,
+                        engine::listOf(edited_).c_str(), why.message.c_str());
+        std::fflush(stdout);
         failure_ = why;
+        has_failed_ = true;
         next_try_ = Clock::now() + kBeforeNextTry;
         ++steps_; // one that was asked for
         return world_.restore(beginning_);
@@ -132,8 +143,9 @@ private:
     engine::KernelTimes times_{kTimedSteps};
     std::vector<std::byte> beginning_;
     uint32_t steps_ = 0;
-    std::vector<std::string> latest_;      // kernels, of the last edit that was taken over
+    std::vector<std::string> edited_;      // kernels that have been reloaded, the latest first
     std::optional<engine::Error> failure_; // of the last step
+    bool has_failed_ = false;              // a step, since something was reloaded last
     Clock::time_point next_try_;
 };
 

@@ -68,7 +68,9 @@ int main(int argc, char** argv) {
         ->excludes(device);
     try {
         app.parse(argc, argv);
-        return run(options);
+        const int code = run(options);
+        if (std::fflush(stdout) != 0) return fail({engine::ErrorCode::BadInput, "the output cannot be written"});
+        return code;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         return fail({engine::ErrorCode::BadInput, std::string(error.what()) + "; see shader_reload --help"});

@@ -158,6 +158,7 @@ BrittleResult brittleGetCounts(BrittleContext* context, BrittleWorld world, Brit
         HostedWorld& w = c.worlds.at(world.id);
         BrittleCounts& out = sized(counts, "counts");
         const brittle::WorldCounts n = orRefuse(w.running().counts());
+        w.listen(); // what was lost is known then
         out = {sizeof out, n.bodies,    n.awake,   n.pairs,        n.contacts,
                n.broken,   n.fragments, n.expired, w.breaksLost(), w.impactsLost()};
     });

@@ -2,20 +2,34 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <random>
 
 namespace {
 
 using namespace brittle::abi;
 
-// Two contexts that live at the same time have different ones, but for one chance in four thousand: where they lie.
-uint64_t tagOf(const void* context) {
-    const auto bits = reinterpret_cast<uintptr_t>(context) >> 4;
-    return (bits * 0x9e3779b97f4a7c15u) >> 52;
+// By chance, so that ids of one context are none of another, though it may lie at the same place.
+uint64_t drawnTag(const void* context) {
+    uint64_t bits = reinterpret_cast<uintptr_t>(context) >> 4;
+    std::random_device random;
+    for (int k = 0; k < 2; ++k)
+        bits = (bits ^ random()) * 0x9e3779b97f4a7c15u;
+    return bits >> 32;
+}
+
+// In one line, whatever the names hold that hosts have given.
+template <size_t N>
+void write(std::array<char, N>& line, const char* message) noexcept {
+    std::snprintf(line.data(), line.size(), "%s", message);
+    for (char* c = line.data(); *c != '\0'; ++c)
+        if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7f) *c = ' ';
 }
 
 void tell(BrittleLog log, void* user, BrittleLogLevel level, const char* message) noexcept {
     try {
-        if (log != nullptr) log(user, level, message);
+        std::array<char, 1024> line;
+        write(line, message);
+        if (log != nullptr) log(user, level, line.data());
     } catch (...) { // a host of C++ that throws is not ours to end
     }
 }
@@ -85,9 +99,9 @@ BrittleContext* makeContext(const BrittleContextDef& def) {
 } // namespace
 
 BrittleContext::BrittleContext(const BrittleContextDef& def, std::unique_ptr<engine::Device> opened)
-    : memory(def.allocator), log(def.log), log_user(def.log_user), device(std::move(opened)),
-      meshes(Kind::Mesh, tagOf(this), &memory), materials(Kind::Material, tagOf(this), &memory),
-      worlds(Kind::World, tagOf(this), &memory) {}
+    : memory(def.allocator), log(def.log), log_user(def.log_user), device(std::move(opened)), tag(drawnTag(this)),
+      meshes(Kind::Mesh, tag, &memory), materials(Kind::Material, tag, &memory), worlds(Kind::World, tag, &memory),
+      next_world(tag) {}
 
 BrittleContext::~BrittleContext() {
     device->waitIdle();
@@ -95,9 +109,7 @@ BrittleContext::~BrittleContext() {
 }
 
 BrittleResult BrittleContext::fail(BrittleResult code, const char* message) noexcept {
-    std::snprintf(last_error.data(), last_error.size(), "%s", message);
-    for (char* c = last_error.data(); *c != '\0'; ++c) // names that hosts have given may hold line breaks
-        if (static_cast<unsigned char>(*c) < 0x20) *c = ' ';
+    write(last_error, message);
     tell(log, log_user, BRITTLE_LOG_ERROR, last_error.data());
     return code;
 }

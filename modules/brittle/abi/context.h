@@ -34,8 +34,10 @@ struct BrittleContext {
     BrittleLog log;
     void* log_user;
     std::unique_ptr<engine::Device> device;
+    uint64_t tag; // in all ids
     brittle::abi::IdTable<brittle::abi::HostedMesh> meshes;
     brittle::abi::IdTable<brittle::MaterialDescription> materials;
     brittle::abi::IdTable<brittle::abi::HostedWorld> worlds;
+    uint64_t next_world; // a number for each, in the ids of its bodies
     std::array<char, 1024> last_error = {};
 };

@@ -14,12 +14,13 @@
 namespace brittle::abi {
 namespace {
 
-constexpr uint32_t kNumberBits = 22, kBornBits = 30, kColliders = 1u << (kNumberBits - 1); // colliders' numbers begin there
-constexpr size_t kMostWaiting = 1u << 16;                                                  // events kept for a host
+constexpr uint32_t kWorldBits = 14, kNumberBits = 22, kBornBits = 24,
+                   kColliders = 1u << (kNumberBits - 1); // colliders' numbers begin there
+constexpr size_t kMostWaiting = 1u << 16;                // events kept for a host
 
-uint64_t bodyBits(uint64_t tag, uint64_t number, uint64_t born) {
-    return static_cast<uint64_t>(Kind::Body) << 60 | (tag & 0xff) << 52 | (number & ((1u << kNumberBits) - 1)) << kBornBits |
-           (born & ((1u << kBornBits) - 1));
+uint64_t bodyBits(uint64_t world, uint64_t number, uint64_t born) {
+    return static_cast<uint64_t>(Kind::Body) << 60 | (world & ((1u << kWorldBits) - 1)) << (kNumberBits + kBornBits) |
+           (number & ((1u << kNumberBits) - 1)) << kBornBits | (born & ((1u << kBornBits) - 1));
 }
 
 Eigen::Quaterniond quaternion(const Turn& t) { return Eigen::Quaterniond(t[3], t[0], t[1], t[2]).normalized(); }
@@ -30,28 +31,27 @@ ShapeFrame frameIn(const Pose& pose, const Double3& place, const Turn& turn) {
     return {turnedBack(pose.turn, place - pose.place), {relative.x(), relative.y(), relative.z(), relative.w()}};
 }
 
-// Where the host has no memory for them, they go on waiting.
+// More than so many are lost, the newest of them.
 template <class Event>
-void keepArrived(HostedWorld::Waiting<Event>& waiting) {
-    HeardEvents<Event>& arrived = waiting.arrived;
-    const size_t kept = std::min(arrived.events.size(), kMostWaiting - waiting.events.size());
-    waiting.events.insert(waiting.events.end(), arrived.events.begin(), arrived.events.begin() + static_cast<ptrdiff_t>(kept));
-    waiting.lost += arrived.lost + static_cast<uint32_t>(arrived.events.size() - kept);
-    arrived = {};
+void listenTo(HeardEvents<Event> told, HostedWorld::Waiting<Event>& waiting) {
+    const size_t waits = waiting.events.size() + waiting.arrived.size();
+    const size_t kept = std::min(told.events.size(), kMostWaiting - waits);
+    waiting.arrived.insert(waiting.arrived.end(), told.events.begin(), told.events.begin() + static_cast<ptrdiff_t>(kept));
+    waiting.lost += told.lost + static_cast<uint32_t>(told.events.size() - kept);
 }
 
-template <class Event, class Hear>
-HostedWorld::Waiting<Event>& withNew(HostedWorld::Waiting<Event>& waiting, Hear&& hear) {
-    keepArrived(waiting);
-    waiting.arrived = orRefuse(hear());
-    keepArrived(waiting);
+// Into the host's memory. Where it has none, they go on waiting.
+template <class Event>
+HostedWorld::Waiting<Event>& withArrived(HostedWorld::Waiting<Event>& waiting) {
+    waiting.events.insert(waiting.events.end(), waiting.arrived.begin(), waiting.arrived.end());
+    waiting.arrived.clear();
     return waiting;
 }
 
 template <class Event>
 void forget(HostedWorld::Waiting<Event>& waiting) {
     waiting.events.clear();
-    waiting.arrived = {};
+    waiting.arrived.clear();
 }
 
 } // namespace
@@ -105,11 +105,11 @@ void HostedWorld::finish() {
     if (had) orRefuse(world_->step(0));
 }
 
-BrittleBody HostedWorld::colliderId(uint32_t index) const { return {bodyBits(tag_, kColliders + index, 0)}; }
+BrittleBody HostedWorld::colliderId(uint32_t index) const { return {bodyBits(number_, kColliders + index, 0)}; }
 
 BrittleBody HostedWorld::bodyId(uint32_t slot, uint32_t born) const {
     const bool is_collider = born == 0 && slot >= bodyCount() && slot < originalCount();
-    return is_collider ? colliderId(slot - bodyCount()) : BrittleBody{bodyBits(tag_, slot, born)};
+    return is_collider ? colliderId(slot - bodyCount()) : BrittleBody{bodyBits(number_, slot, born)};
 }
 
 HostedWorld::Named HostedWorld::named(BrittleBody body) const {
@@ -118,22 +118,33 @@ HostedWorld::Named HostedWorld::named(BrittleBody body) const {
     const bool is_collider = number >= kColliders;
     const uint32_t slot = is_collider ? bodyCount() + number - kColliders : number;
     const bool is_original = is_collider ? slot < originalCount() : number < bodyCount();
-    if (body.id != bodyBits(tag_, number, born) || (born == 0 ? !is_original : is_collider))
+    if (body.id != bodyBits(number_, number, born) || (born == 0 ? !is_original : is_collider))
         throw Refusal(BRITTLE_WRONG_HANDLE, "this id was never one of a body of this world");
     return {slot, born};
 }
 
+void HostedWorld::listen() {
+    listenTo(orRefuse(running().breaks()), breaks_);
+    listenTo(orRefuse(running().impacts()), impacts_);
+}
+
 HostedWorld::Waiting<gpu::BreakEvent>& HostedWorld::hearBreaks() {
-    return withNew(breaks_, [this] { return running().breaks(); });
+    listen();
+    return withArrived(breaks_);
 }
 
 HostedWorld::Waiting<gpu::ImpactEvent>& HostedWorld::hearImpacts() {
-    return withNew(impacts_, [this] { return running().impacts(); });
+    listen();
+    return withArrived(impacts_);
 }
 
 void HostedWorld::forgetEvents() {
+    const uint32_t breaks_lost = breaks_.lost, impacts_lost = impacts_.lost;
+    listen();
     forget(breaks_);
     forget(impacts_);
+    breaks_.lost = breaks_lost;
+    impacts_.lost = impacts_lost;
 }
 
 BrittleMaterial HostedWorld::materialOf(uint32_t slot) const {

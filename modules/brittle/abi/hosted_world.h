@@ -24,7 +24,7 @@ class HostedWorld {
 public:
     HostedWorld(SceneDescription described, const BrittleWorldDef& def, std::pmr::memory_resource* memory)
         : scene(std::move(described)), has_surfaces(def.has_surfaces != 0), seed(def.seed), breaks_(memory), impacts_(memory) {}
-    void setTag(uint64_t world_id) { tag_ = (world_id ^ world_id >> 29 ^ world_id >> 47) * 0x9e3779b97f4a7c15u >> 56; }
+    void setNumber(uint64_t number) { number_ = number; }
 
     // Refuse what is not to be called now.
     void mustNotRun() const;
@@ -39,8 +39,8 @@ public:
     // Slots are those of the world: bodies, then colliders, then fragments, which may have slots of bodies that broke as well.
     uint32_t bodyCount() const { return static_cast<uint32_t>(scene.bodies.size()); }
     uint32_t originalCount() const { return static_cast<uint32_t>(scene.bodies.size() + scene.colliders.size()); }
-    // Ids of bodies: 4 bits kind, 8 of the world's, 22 number, 30 the step that a fragment was made in. Colliders are numbered
-    // apart, since bodies may still come when one is added.
+    // Ids of bodies: 4 bits kind, 14 the world's number, 22 number, 24 the step that a fragment was made in, which is as far as
+    // the device counts them exactly. Colliders are numbered apart, since bodies may still come when one is added.
     BrittleBody bodyId(uint32_t slot, uint32_t born) const;
     BrittleBody colliderId(uint32_t index) const;
     struct Named {
@@ -49,19 +49,20 @@ public:
     Named named(BrittleBody body) const; // refuses what was never an id of this world
 
     // Events told by the device and not yet to the host; how many were lost. The device tells each once: what it has told waits
-    // in `arrived` until the host has memory for it.
+    // in `arrived` for as long as the host has no memory for it.
     template <class Event>
     struct Waiting {
         explicit Waiting(std::pmr::memory_resource* memory) : events(memory) {}
         std::pmr::vector<Event> events;
-        HeardEvents<Event> arrived;
+        std::vector<Event> arrived;
         uint32_t lost = 0;
     };
+    void listen(); // takes what the device has to tell before newer events take its place
     Waiting<gpu::BreakEvent>& hearBreaks();
     Waiting<gpu::ImpactEvent>& hearImpacts();
     uint32_t breaksLost() const { return breaks_.lost; }
     uint32_t impactsLost() const { return impacts_.lost; }
-    void forgetEvents();
+    void forgetEvents(); // also what the device has yet to tell
 
     // Of a body as it was added, by its slot; none, all zeros.
     BrittleMaterial materialOf(uint32_t slot) const;
@@ -82,7 +83,7 @@ private:
     bool has_recorded_ = false;
     Waiting<gpu::BreakEvent> breaks_;
     Waiting<gpu::ImpactEvent> impacts_;
-    uint64_t tag_ = 0;
+    uint64_t number_ = 0; // of this world among those of its context
 };
 
 } // namespace brittle::abi

@@ -13,11 +13,12 @@ namespace brittle::abi {
 
 enum class Kind : uint64_t { Mesh = 1, Material = 2, World = 3, Body = 4 };
 
-// Bits: 32 place + 1, 16 uses, 12 tag, 4 kind.
-constexpr uint32_t kUsesBits = 16, kTagBits = 12;
+// Bits: 20 place + 1, 16 uses, 24 tag, 4 kind.
+constexpr uint32_t kPlaceBits = 20, kUsesBits = 16, kTagBits = 24;
 
 constexpr uint64_t packId(Kind kind, uint64_t tag, uint64_t uses, uint64_t place) {
-    return static_cast<uint64_t>(kind) << 60 | (tag & ((1u << kTagBits) - 1)) << 48 | uses << 32 | (place + 1);
+    return static_cast<uint64_t>(kind) << 60 | (tag & ((1u << kTagBits) - 1)) << (kPlaceBits + kUsesBits) | uses << kPlaceBits |
+           (place + 1);
 }
 
 template <class T>
@@ -53,11 +54,13 @@ private:
     uint64_t freePlace() {
         for (uint64_t place = 0; place < slots_.size(); ++place)
             if (!slots_[place].value && slots_[place].uses >> kUsesBits == 0) return place;
+        if (slots_.size() + 1 >> kPlaceBits != 0)
+            throw Refusal(BRITTLE_CAPACITY, "a context has at most a million of each kind; destroy what is no longer needed");
         slots_.emplace_back();
         return slots_.size() - 1;
     }
     uint64_t placeOf(uint64_t id) const {
-        const uint64_t place = (id & 0xffffffffu) - 1, uses = id >> 32 & ((1u << kUsesBits) - 1);
+        const uint64_t place = (id & ((1u << kPlaceBits) - 1)) - 1, uses = id >> kPlaceBits & ((1u << kUsesBits) - 1);
         const bool known = place < slots_.size() && id == packId(kind_, tag_, uses, place) && uses <= slots_[place].uses;
         if (!known)
             throw Refusal(BRITTLE_WRONG_HANDLE, "this id was never one of a " + std::string(name()) + " of this context");

@@ -32,7 +32,7 @@ BrittleResult brittleCreateWorld(BrittleContext* context, const BrittleWorldDef*
         auto settings = orRefuse(brittle::settingsOf(scene));
         orRefuseFields(brittle::checkSettings(settings));
         out.id = c.worlds.add(std::move(scene), d, &c.memory);
-        c.worlds.at(out.id).setTag(out.id);
+        c.worlds.at(out.id).setNumber(c.next_world++);
     });
 }
 

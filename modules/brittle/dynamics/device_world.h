@@ -88,6 +88,7 @@ private:
     engine::Result<std::vector<uint32_t>> takeStock();
     engine::Result<void> clearWord(uint32_t of_counts);
     // That a body was stopped is told once.
+    engine::Error uncounted() const;
     engine::Result<void> forget(uint32_t body);
     engine::Result<void> failureOf(const std::vector<uint32_t>& words) const;
     std::vector<StateView> stateViews() const;

@@ -40,11 +40,16 @@ Result<void> DeviceWorld::restore(std::span<const std::byte> state) {
 
 Result<void> DeviceWorld::settle() {
     const uint64_t wanted = made_ + std::exchange(ahead_, 0);
-    while (made_ < wanted) {
+    struct {
+        uint64_t made, pairs;
+    } best = {};
+    for (bool is_first = true; made_ < wanted; is_first = false) {
         auto words = takeStock();
         if (!words) return words.error();
         if (const uint32_t stopped = (*words)[STATUS_STOPPED_BODY]; stopped != 0) return forget(stopped - 1);
         if (auto mended = mend(*words); !mended) return mended;
+        if (!is_first && made_ <= best.made && b_.sizes.pairs <= best.pairs) return uncounted(); // it would be for ever
+        best = {made_, b_.sizes.pairs};
         for (uint64_t k = made_; k < wanted; k++)
             if (auto done = submit(k); !done) return done;
     }
@@ -94,6 +99,10 @@ Result<std::vector<uint32_t>> DeviceWorld::takeStock() {
     std::array<uint32_t, STEPS_WORDS> steps = {};
     const Fetch wanted[] = {{b_.counts, words.data(), 4 * words.size()}, {b_.steps, steps.data(), sizeof steps}};
     if (auto read = fetch(device_, wanted); !read) return read.error();
+    if (steps[STEPS_BODIES] > b_.sizes.bodies)
+        return Error{ErrorCode::Internal, "the device counts " + std::to_string(steps[STEPS_BODIES]) +
+                                              " bodies and has room for " + std::to_string(b_.sizes.bodies) +
+                                              "; is there a kernel that spoils its counts?"};
     made_ = steps[STEPS_MADE];
     slots_ = steps[STEPS_BODIES];
     broken_ = steps[STEPS_BROKEN];
@@ -107,6 +116,12 @@ Result<void> DeviceWorld::clearWord(uint32_t of_counts) {
     if (auto begun = commands.begin(); !begun) return begun;
     commands.fill(b_.counts.sub(uint64_t{4} * of_counts, 4), 0);
     return commands.submitAndWait();
+}
+
+Error DeviceWorld::uncounted() const {
+    return {ErrorCode::Internal,
+            "step " + std::to_string(made_ + 1) +
+                " was made and neither counted nor called failed; is there a kernel that leaves out its part?"};
 }
 
 Result<void> DeviceWorld::forget(uint32_t body) {

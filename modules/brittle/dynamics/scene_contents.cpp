@@ -348,7 +348,8 @@ Result<void> ContentsMaker::addSurface(const ColliderDescription& d, BodyDefinit
     if (!model) return Error{model.error().code, "collider \"" + body.name + "\": " + model.error().message};
     body.pieces = piecesOf(*model);
     if (body.pieces.empty())
-        return Error{ErrorCode::BadInput, "collider \"" + body.name + "\": no triangle of " + d.shape.file + " has an area"};
+        return Error{ErrorCode::BadInput, "collider \"" + body.name + "\": no triangle of " +
+                                              (d.shape.file.empty() ? "its mesh" : d.shape.file) + " has an area"};
     return add(body, [&] { return surfaceOf(*model); });
 }
 
