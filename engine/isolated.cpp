@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -33,6 +34,8 @@ using End = IsolatedRun::End;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kBetweenQuestions{5}; // whether it is still wanted
+constexpr milliseconds kLongestPause{1000};  // of a child that does something
+constexpr int kMostForks = 4;                // of one that does nothing
 
 enum ExitCode { kNothingMoreAsked = 0, kOutOfMemory = 3, kThrew = 4 };
 
@@ -143,18 +146,12 @@ void answerOne(int socket, const IsolatedProcess::Work& work, const IsolationLim
 // ---- the parent
 // ---------------------------------------------------------------------------------------------------------------
 
-// Until an answer is whole, the child has come to an end, time runs out or nobody wants it any more.
-End hearAnswer(int socket, Clock::time_point deadline, const std::function<bool()>& is_unwanted, std::string& answer) {
-    while (!isWhole(answer)) {
-        if (is_unwanted && is_unwanted()) return End::Unwanted;
-        auto left = std::chrono::duration_cast<milliseconds>(deadline - Clock::now());
-        if (left.count() <= 0) return End::OutOfTime;
-        if (is_unwanted) left = std::min(left, kBetweenQuestions);
-        pollfd waiting = {socket, POLLIN, 0};
-        const int ready = poll(&waiting, 1, static_cast<int>(left.count()));
-        if (ready > 0 && !hear(socket, answer)) return End::Died;
-    }
-    return End::Done;
+// What a process has used of processors; none where that cannot be told.
+milliseconds processorTimeOf(pid_t process) {
+    clockid_t clock = 0;
+    timespec used{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0) return milliseconds(-1);
+    return milliseconds(used.tv_sec * 1000 + used.tv_nsec / 1'000'000);
 }
 
 int waitFor(pid_t child) {
@@ -197,17 +194,48 @@ int IsolatedProcess::end() {
     return waitFor(std::exchange(child_, -1));
 }
 
-IsolatedRun IsolatedProcess::ask(std::string_view request, const std::function<bool()>& is_unwanted) {
-    if (child_ <= 0 && !begin()) {
-        end();
-        return {End::NotBegun, {}};
+// When to stop waiting, and whether the child does anything.
+struct IsolatedProcess::Watch {
+    Clock::time_point deadline;
+    bool gives_up = false; // where it does nothing
+    Clock::time_point looked = Clock::now();
+    milliseconds used{-1};
+
+    bool isStuck(pid_t child) {
+        if (!gives_up || Clock::now() - looked < kLongestPause) return false;
+        looked = Clock::now();
+        const milliseconds before = std::exchange(used, processorTimeOf(child));
+        return used >= milliseconds(0) && used == before;
     }
-    std::string answer;
-    const auto deadline = Clock::now() + std::chrono::seconds(limits_.seconds);
-    const End heard = say(socket_, request) ? hearAnswer(socket_, deadline, is_unwanted, answer) : End::Died;
-    if (heard == End::Done) return {End::Done, withoutLength(std::move(answer))};
-    const int status = end();
-    return {heard == End::Died ? causeOf(status) : heard, {}};
+};
+
+// Until an answer is whole, the child has come to an end or is stuck, time runs out or nobody wants it any more.
+End IsolatedProcess::hearAnswer(Watch& watch, const std::function<bool()>& is_unwanted, std::string& answer) const {
+    while (!isWhole(answer)) {
+        if (is_unwanted && is_unwanted()) return End::Unwanted;
+        if (watch.isStuck(child_)) return End::NotBegun;
+        auto left = std::chrono::duration_cast<milliseconds>(watch.deadline - Clock::now());
+        if (left.count() <= 0) return End::OutOfTime;
+        left = std::min(left, is_unwanted ? kBetweenQuestions : kLongestPause);
+        pollfd waiting = {socket_, POLLIN, 0};
+        const int ready = poll(&waiting, 1, static_cast<int>(left.count()));
+        if (ready > 0 && !hear(socket_, answer)) return End::Died;
+    }
+    return End::Done;
+}
+
+IsolatedRun IsolatedProcess::ask(std::string_view request, const std::function<bool()>& is_unwanted) {
+    for (int forks_left = kMostForks; forks_left > 0; --forks_left) {
+        if (child_ <= 0 && !begin()) break;
+        std::string answer;
+        Watch watch = {.deadline = Clock::now() + std::chrono::seconds(limits_.seconds), .gives_up = forks_left > 1};
+        const End heard = say(socket_, request) ? hearAnswer(watch, is_unwanted, answer) : End::Died;
+        if (heard == End::Done) return {End::Done, withoutLength(std::move(answer))};
+        const int status = end();
+        if (heard != End::NotBegun) return {heard == End::Died ? causeOf(status) : heard, {}};
+    }
+    end();
+    return {End::NotBegun, {}};
 }
 
 // What it has answered before may have left it too little memory, or have spoiled it.

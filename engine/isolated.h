@@ -39,14 +39,17 @@ public:
     IsolatedProcess(const IsolatedProcess&) = delete;
     IsolatedProcess& operator=(const IsolatedProcess&) = delete;
 
-    // `is_unwanted` is asked every few milliseconds; once it says so, the process is ended. From one thread. `work` may take no
-    // lock that another thread can hold while this process is forked.
+    // `is_unwanted` is asked every few milliseconds; once it says so, the process is ended. From one thread. `work` should take
+    // no lock that another thread can hold while this process is forked; a child that waits for one, as for that of an
+    // allocator that was not made for forks, is given up after a second and forked anew.
     IsolatedRun run(std::string_view request, const std::function<bool()>& is_unwanted = {});
 
 private:
     bool begin();
     int end();
     IsolatedRun ask(std::string_view request, const std::function<bool()>& is_unwanted);
+    struct Watch;
+    IsolatedRun::End hearAnswer(Watch& watch, const std::function<bool()>& is_unwanted, std::string& answer) const;
 
     Work work_;
     IsolationLimits limits_;

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <thread>
 #include <unistd.h>
 
@@ -47,6 +48,30 @@ TEST(Isolation, EndsWhatNobodyWantsAnyMore) {
     EXPECT_EQ(runIsolated(goOnForEver, {}, [&] { return is_unwanted.load(); }).end, End::Unwanted);
     other.join();
     EXPECT_TRUE(runIsolated([] { return std::string(); }, {}, [] { return false; }).isDone());
+}
+
+// As a child does whose allocator was forked while another thread held its lock.
+TEST(Isolation, ForksAnewWhatWaitsForALockThatNobodyHolds) {
+    std::mutex mutex;
+    mutex.lock();
+    std::thread other([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        mutex.unlock();
+    });
+    const IsolatedRun run = runIsolated([&] {
+        const std::lock_guard lock(mutex);
+        return std::string("free");
+    });
+    other.join();
+    EXPECT_EQ(run.answer, "free");
+}
+
+TEST(Isolation, WaitsForWhatSleepsIfItAlwaysDoes) {
+    const IsolatedRun run = runIsolated([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+        return std::string("awake");
+    });
+    EXPECT_EQ(run.answer, "awake");
 }
 
 TEST(Isolation, LimitsMemory) {

@@ -177,10 +177,9 @@ TEST_F(Reload, LeavesOffWhatNobodyWantsAnyMore) {
     save(replaced(source(), "void main", replaced(doublingMacros(40), "void main", "void never") + "void main"));
     while (!reloader()->isAwaited())
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    save(adding("3u"));
-    const std::vector<ReloadEvent> said = reloader().settle();
-    ASSERT_EQ(said.size(), 1u) << textOf(said[0]);
-    EXPECT_EQ(said[0].kind, Kind::Reloaded);
+    writeAtomically(folder() / "increment.comp", adding("3u"));
+    for (const ReloadEvent& event : reloader().settle())
+        EXPECT_NE(event.kind, Kind::Refused) << textOf(event.diagnostics);
     EXPECT_EQ(added(), 3u);
     save(replaced(source(), "void main", replaced(doublingMacros(40), "void main", "void never") + "void main"));
     while (!reloader()->isAwaited())
