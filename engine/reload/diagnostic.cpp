@@ -77,7 +77,10 @@ std::string textOf(const Diagnostic& diagnostic) {
     if (diagnostic.line != 0) text += ":" + std::to_string(diagnostic.line);
     if (diagnostic.line != 0 && diagnostic.column != 0) text += ":" + std::to_string(diagnostic.column);
     text += diagnostic.severity == Severity::Error ? ": error: " : ": warning: ";
-    return text + diagnostic.message;
+    text += diagnostic.message;
+    std::ranges::replace_if(
+        text, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '?'); // of names
+    return text;
 }
 
 std::string textOf(const std::vector<Diagnostic>& diagnostics) {

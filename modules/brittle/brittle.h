@@ -6,7 +6,7 @@
  * modules/brittle/examples/host.c does all of it in a hundred lines.
  *
  * UNITS are SI: meters, kilograms, seconds, joules, radians. Frames are right-handed; gravity is what the world says. Rotations
- * are quaternions x, y, z, w of any length but 0.
+ * are quaternions x, y, z, w of any length from 1e-6 on.
  *
  * ERRORS. What can fail returns a BrittleResult; brittleLastError has, in words, what went wrong with the context's last call
  * that failed, and what to do. A call that fails leaves everything as it was, where nothing else is said. Any function that
@@ -83,9 +83,10 @@ typedef enum BrittleLogLevel { BRITTLE_LOG_INFO = 0, BRITTLE_LOG_WARNING = 1, BR
 
 typedef struct BrittleContext BrittleContext;
 
-/* Ids. All zeros is the id of nothing. An id of what is gone is never that of something else, within a context, its first 16,384
+/* Ids. All zeros is the id of nothing. An id of what is gone is never that of something else, within a context, its first 131,072
  * worlds and 16 million steps of one; but brittleRestoreState goes back in time: fragments that are made after it may have the ids of
- * fragments that were made before it, after the state was saved. Contexts draw what tells their ids from those of others. */
+ * fragments that were made before it, after the state was saved. Contexts draw by chance what tells their ids from those of others: a
+ * world shares ids of bodies with one of another context once in 131,072, other ids are shared once in 16 million. */
 typedef struct BrittleMesh {
     uint64_t id;
 } BrittleMesh;
@@ -256,7 +257,8 @@ typedef enum BrittleEffect {
     BRITTLE_EFFECT_DRAG = 1 << 11            /* air */
 } BrittleEffect;
 
-/* Room. 0: chosen by what the world begins with; pairs and contacts then grow where they must. */
+/* Room. 0: chosen by what the world begins with; pairs and contacts then grow where they must. BAD_VALUE for more than 1e7, or 1e6
+ * particles of dust; CAPACITY, by brittleStartWorld, for what the device cannot do. */
 typedef struct BrittleBudget {
     uint32_t pairs; /* of convex pieces that are near each other */
     uint32_t contacts;

@@ -67,6 +67,12 @@ TEST(AbiEvents, ThatAreLostAreCountedBeforeAnybodyAsks) {
     EXPECT_EQ(countsOf(host, again.world).impacts_lost, told - 1024);
     EXPECT_EQ(impactsOf(host, again.world), 1024u);
     EXPECT_EQ(countsOf(host, again.world).impacts_lost, told - 1024);
+    const Scene third = manyThatBounce(host);
+    const std::vector<std::byte> beginning = savedOf(host, third.world);
+    MUST(host, brittleStep(host, third.world, kSteps));
+    MUST(host, brittleRestoreState(host, third.world, beginning.data(), beginning.size()));
+    EXPECT_EQ(countsOf(host, third.world).impacts_lost, told - 1024) << "what was lost before the time was taken back is lost";
+    EXPECT_EQ(impactsOf(host, third.world), 0u);
 }
 
 // Of the time before it nothing is told after it, whatever had been asked when the state was saved.

@@ -157,6 +157,23 @@ TEST_F(ReloadTool, BeginsASceneAnewWhoseStepsAreNotCounted) {
     EXPECT_EQ(tool.wait().exit_code, 0);
 }
 
+TEST_F(ReloadTool, EndsWellWhereNoStepCanBeMade) {
+    copyKernels();
+    const std::string name = "solver/end_step.comp", source = read(name);
+    write(name, replaced(source, "if (b == 0u) steps[STEPS_MADE]++;", ""));
+    {
+        support::RunningProgram tool("shader_reload", {"--scene", "bounce", folder().string()});
+        ASSERT_TRUE(tool.says("the scene begins anew", kPatience));
+        tool.interrupt();
+        const support::Outcome outcome = tool.wait();
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_TRUE(has(outcome.out, "the last of them failed")) << outcome.out;
+    }
+    const support::Outcome outcome = run({"--scene", "bounce", "--steps", "25", folder().string()});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_TRUE(has(outcome.err, "the scene cannot be stepped by these kernels")) << outcome.err;
+}
+
 TEST(KernelTimes, AreMediansBeforeAndAfter) {
     engine::KernelTimes times(3);
     const auto frame = [&](double ms) {

@@ -52,7 +52,7 @@ public:
                 if (auto followed = follow(); !followed) return followed;
             } while (reloader_.waitUntil(next));
         }
-        return failure_ ? Result<void>(*failure_) : tellEnd();
+        return tellEnd();
     }
 
 private:
@@ -127,7 +127,15 @@ private:
         return {};
     }
 
+    // Steps that fail to the end are the kernels' fault, but for somebody who has seen enough of them.
     Result<void> tellEnd() {
+        if (failure_ && interrupted == 0)
+            return engine::Error{engine::ErrorCode::BadInput,
+                                 "the scene cannot be stepped by these kernels: " + failure_->message};
+        if (failure_) {
+            std::printf("%u steps, the last of them failed\n", steps_);
+            return {};
+        }
         const auto hash = world_.hash();
         if (!hash) return hash.error();
         std::printf("%u steps, state %s\n", steps_, cli::hexOf(*hash).c_str());
@@ -149,14 +157,19 @@ private:
     Clock::time_point next_try_;
 };
 
+// The second time at once: a driver that compiles cannot be interrupted.
 void stopWhenInterrupted() {
     for (const int signal : {SIGINT, SIGTERM})
-        std::signal(signal, [](int) { interrupted = 1; });
+        std::signal(signal, [](int received) {
+            interrupted = 1;
+            std::signal(received, SIG_DFL);
+        });
 }
 
 } // namespace
 
 Result<void> runLive(const Options& options) {
+    stopWhenInterrupted();
     auto scene = cli::readSceneOrBuiltin(options.scene);
     if (!scene) return scene.error();
     const auto device = engine::Device::create({.select = options.device});
@@ -177,7 +190,6 @@ Result<void> runLive(const Options& options) {
     std::printf("%s on %s by %u kernels; watching %s%s\n", staged->scene.name.c_str(), (*device)->name().c_str(),
                 (*world)->kernels().kernelCount(), options.folder.c_str(), options.steps ? "" : "; Ctrl+C ends");
     std::fflush(stdout);
-    stopWhenInterrupted();
     return LiveScene(options, *staged, **world, **reloader, window->get(), (*device)->isCpu()).run();
 }
 

@@ -14,7 +14,7 @@
 namespace brittle::abi {
 namespace {
 
-constexpr uint32_t kWorldBits = 14, kNumberBits = 22, kBornBits = 24,
+constexpr uint32_t kWorldBits = 17, kNumberBits = 22, kBornBits = 24,
                    kColliders = 1u << (kNumberBits - 1); // colliders' numbers begin there
 constexpr size_t kMostWaiting = 1u << 16;                // events kept for a host
 
@@ -136,6 +136,13 @@ HostedWorld::Waiting<gpu::BreakEvent>& HostedWorld::hearBreaks() {
 HostedWorld::Waiting<gpu::ImpactEvent>& HostedWorld::hearImpacts() {
     listen();
     return withArrived(impacts_);
+}
+
+void HostedWorld::countLost() {
+    try {
+        listen();
+    } catch (const Refusal&) { // a step has failed, and the world is still to be restored
+    }
 }
 
 void HostedWorld::forgetEvents() {

@@ -39,7 +39,7 @@ public:
     // Slots are those of the world: bodies, then colliders, then fragments, which may have slots of bodies that broke as well.
     uint32_t bodyCount() const { return static_cast<uint32_t>(scene.bodies.size()); }
     uint32_t originalCount() const { return static_cast<uint32_t>(scene.bodies.size() + scene.colliders.size()); }
-    // Ids of bodies: 4 bits kind, 14 the world's number, 22 number, 24 the step that a fragment was made in, which is as far as
+    // Ids of bodies: 1 bit kind, 17 the world's number, 22 number, 24 the step that a fragment was made in, which is as far as
     // the device counts them exactly. Colliders are numbered apart, since bodies may still come when one is added.
     BrittleBody bodyId(uint32_t slot, uint32_t born) const;
     BrittleBody colliderId(uint32_t index) const;
@@ -62,6 +62,7 @@ public:
     Waiting<gpu::ImpactEvent>& hearImpacts();
     uint32_t breaksLost() const { return breaks_.lost; }
     uint32_t impactsLost() const { return impacts_.lost; }
+    void countLost();    // as far as the device can still be asked
     void forgetEvents(); // also what the device has yet to tell
 
     // Of a body as it was added, by its slot; none, all zeros.

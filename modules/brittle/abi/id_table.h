@@ -11,7 +11,7 @@
 
 namespace brittle::abi {
 
-enum class Kind : uint64_t { Mesh = 1, Material = 2, World = 3, Body = 4 };
+enum class Kind : uint64_t { Mesh = 1, Material = 2, World = 3, Body = 8 }; // bodies by their highest bit: they need the others
 
 // Bits: 20 place + 1, 16 uses, 24 tag, 4 kind.
 constexpr uint32_t kPlaceBits = 20, kUsesBits = 16, kTagBits = 24;
@@ -54,7 +54,7 @@ private:
     uint64_t freePlace() {
         for (uint64_t place = 0; place < slots_.size(); ++place)
             if (!slots_[place].value && slots_[place].uses >> kUsesBits == 0) return place;
-        if (slots_.size() + 1 >> kPlaceBits != 0)
+        if ((slots_.size() + 1) >> kPlaceBits != 0)
             throw Refusal(BRITTLE_CAPACITY, "a context has at most a million of each kind; destroy what is no longer needed");
         slots_.emplace_back();
         return slots_.size() - 1;

@@ -69,7 +69,9 @@ BrittleResult brittleRestoreState(BrittleContext* context, BrittleWorld world, c
         brittle::World& running = w.running();
         needed(static_cast<const std::byte*>(bytes), "bytes");
         w.saved.reset();
-        orRefuse(running.restore(stateIn(w, {static_cast<const std::byte*>(bytes), size})), BRITTLE_BAD_STATE);
+        const auto state = stateIn(w, {static_cast<const std::byte*>(bytes), size});
+        w.countLost();
+        orRefuse(running.restore(state), BRITTLE_BAD_STATE);
         w.forgetEvents();
     });
 }
