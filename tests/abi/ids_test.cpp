@@ -13,7 +13,8 @@ TEST(SmallAbiIds, OfBodiesAreOfOneWorldOnly) {
     BrittleWorld last = {0};
     BrittleBody body = {0};
     for (int k = 0; k < 600; ++k) {
-        const BrittleWorldDef def = brittleDefaultWorldDef();
+        BrittleWorldDef def = brittleDefaultWorldDef();
+        def.effects = BRITTLE_EFFECT_GRAVITY;
         const BrittleBodyDef cube = brittleDefaultBodyDef();
         BrittleWorld world = {0};
         MUST(host, brittleCreateWorld(host, &def, &world));
