@@ -40,7 +40,7 @@ uint powerOf(float energy) { return floatBitsToUint(energy) >> 23; }
 void countPowers(uint lane) {
     for (uint p = lane; p < POWERS; p += GROUP_SIZE) powers[p] = 0u;
     barrier();
-    for (uint at = lane; at < counts[COUNT_CONTACTS]; at += GROUP_SIZE)
+    for (uint at = lane, contacts = counts[COUNT_CONTACTS]; at < contacts; at += GROUP_SIZE)
         if (hits[at] > 0.0) atomicAdd(powers[powerOf(hits[at])], 1u);
     barrier();
 }

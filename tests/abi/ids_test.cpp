@@ -14,7 +14,7 @@ TEST(SmallAbiIds, OfBodiesAreOfOneWorldOnly) {
     BrittleBody body = {0};
     for (int k = 0; k < 600; ++k) {
         BrittleWorldDef def = brittleDefaultWorldDef();
-        def.effects = BRITTLE_EFFECT_GRAVITY;
+        def.effects = BRITTLE_EFFECT_GRAVITY | BRITTLE_EFFECT_CONTACTS | BRITTLE_EFFECT_EVENTS;
         const BrittleBodyDef cube = brittleDefaultBodyDef();
         BrittleWorld world = {0};
         MUST(host, brittleCreateWorld(host, &def, &world));
