@@ -52,7 +52,8 @@ void limitMemory(const IsolationLimits& limits) {
     const rlimit no_core = {0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     if (!isolationLimitsMemory()) return;
-    const rlimit memory = {addressSpaceInUse() + limits.bytes, addressSpaceInUse() + limits.bytes};
+    const rlim_t most = addressSpaceInUse() + limits.bytes;
+    const rlimit memory = {most, most};
     setrlimit(RLIMIT_AS, &memory);
 }
 
@@ -80,8 +81,7 @@ void closeAllBut(int socket) {
     close_range(own + 1, ~0u, 0);
 }
 
-// ---- what is said between the two: its length, then its bytes
-// -----------------------------------------------------------------
+// ---- what is said between the two: its length, then its bytes ---------------------------------------------------------------
 
 bool sendAll(int socket, const void* bytes, size_t size) {
     for (size_t sent = 0; sent < size;) {
@@ -115,8 +115,7 @@ bool isWhole(const std::string& heard) {
 
 std::string withoutLength(std::string heard) { return heard.erase(0, sizeof(size_t)); }
 
-// ---- the child
-// ----------------------------------------------------------------------------------------------------------------
+// ---- the child --------------------------------------------------------------------------------------------------------------
 
 void answerOne(int socket, const IsolatedProcess::Work& work, const IsolationLimits& limits) {
     std::string request;
@@ -143,8 +142,7 @@ void answerOne(int socket, const IsolatedProcess::Work& work, const IsolationLim
     }
 }
 
-// ---- the parent
-// ---------------------------------------------------------------------------------------------------------------
+// ---- the parent -------------------------------------------------------------------------------------------------------------
 
 // What a process has used of processors; none where that cannot be told.
 milliseconds processorTimeOf(pid_t process) {

@@ -123,18 +123,22 @@ HostedWorld::Named HostedWorld::named(BrittleBody body) const {
     return {slot, born};
 }
 
+void HostedWorld::listenForBreaks() { listenTo(orRefuse(running().breaks()), breaks_); }
+
+void HostedWorld::listenForImpacts() { listenTo(orRefuse(running().impacts()), impacts_); }
+
 void HostedWorld::listen() {
-    listenTo(orRefuse(running().breaks()), breaks_);
-    listenTo(orRefuse(running().impacts()), impacts_);
+    listenForBreaks();
+    listenForImpacts();
 }
 
 HostedWorld::Waiting<gpu::BreakEvent>& HostedWorld::hearBreaks() {
-    listen();
+    listenForBreaks();
     return withArrived(breaks_);
 }
 
 HostedWorld::Waiting<gpu::ImpactEvent>& HostedWorld::hearImpacts() {
-    listen();
+    listenForImpacts();
     return withArrived(impacts_);
 }
 

@@ -78,6 +78,8 @@ public:
     std::optional<std::vector<std::byte>> saved; // just now, to be copied by the next call
 
 private:
+    void listenForBreaks();
+    void listenForImpacts();
     void findFrames(const std::vector<gpu::BodyState>& states);
 
     std::unique_ptr<World> world_;

@@ -159,7 +159,9 @@ engine::Result<WeldedMesh> weldMesh(const ImportedMesh& imported) {
         const std::vector<char> used = verticesOf(imported, triangles);
         const auto box = boxOf(imported, used);
         if (!box) return box.error();
+        const size_t before = triangles.size();
         WeldedMesh welded = weldAround(*box, imported, used, triangles);
+        if (triangles.size() == before) return welded;
         const auto left = boxOf(imported, verticesOf(imported, triangles));
         if (left && isSameBox(*left, *box)) return welded;
     }
