@@ -2,6 +2,7 @@
 #ifndef RIGID_GLSL
 #define RIGID_GLSL
 #include "lib/quaternion.glsl"
+#include "lib/trigonometry.glsl"
 #include "shared/body.h"
 
 // GLSL's matrices are given by columns, these by rows, but they are symmetric.
@@ -22,10 +23,10 @@ float turningYield(mat3 inverse_inertia, vec3 arm, vec3 normal) {
 
 vec3 spinOf(mat3 own_inverse, vec4 turn, vec3 momentum) { return turned(turn, own_inverse * turned(turnBack(turn), momentum)); }
 
-// A turn about one of the own axes, after which own components of a vector that stays in the world are those of `own`.
-void turnAbout(uint axis, float angle, inout vec4 turn, inout vec3 own) {
-    vec4 q = vec4(0.0, 0.0, 0.0, cos(0.5 * angle));
-    q[axis] = sin(0.5 * angle);
+// Turns about one of the own axes. Own components of a vector that stays in the world change to those after the turn.
+void turnAbout(vec3 axis, float angle, inout vec4 turn, inout vec3 own) {
+    vec2 half_turn = sineAndCosine(0.5 * angle);
+    vec4 q = vec4(half_turn.x * axis, half_turn.y);
     turn = turnAfter(turn, q);
     own = turned(turnBack(q), own);
 }
@@ -42,11 +43,12 @@ const float kPartOfTurn = 0.25; // rad
 const float kMostParts = 128.0;
 
 void turnAboutOwnAxes(vec3 rest, float h, inout vec4 turn, inout vec3 own) {
-    turnAbout(0u, 0.5 * h * rest.x * own.x, turn, own);
-    turnAbout(1u, 0.5 * h * rest.y * own.y, turn, own);
-    turnAbout(2u, h * rest.z * own.z, turn, own);
-    turnAbout(1u, 0.5 * h * rest.y * own.y, turn, own);
-    turnAbout(0u, 0.5 * h * rest.x * own.x, turn, own);
+    const vec3 x = vec3(1.0, 0.0, 0.0), y = vec3(0.0, 1.0, 0.0), z = vec3(0.0, 0.0, 1.0);
+    turnAbout(x, 0.5 * h * rest.x * own.x, turn, own);
+    turnAbout(y, 0.5 * h * rest.y * own.y, turn, own);
+    turnAbout(z, h * rest.z * own.z, turn, own);
+    turnAbout(y, 0.5 * h * rest.y * own.y, turn, own);
+    turnAbout(x, 0.5 * h * rest.x * own.x, turn, own);
 }
 
 vec4 turnFreely(vec3 inverse_moments, vec4 turn, vec3 momentum, float h) {
@@ -58,8 +60,8 @@ vec4 turnFreely(vec3 inverse_moments, vec4 turn, vec3 momentum, float h) {
     float parts = ceil(max(max(angles.x, angles.y), angles.z) / kPartOfTurn);
     uint count = parts <= kMostParts ? max(uint(parts), 1u) : 0u;
     for (uint k = 0u; k < count; k++) turnAboutOwnAxes(rest, h / float(count), turn, own);
-    float angle = 0.5 * h * middle * size;
-    vec4 common_ = size > 0.0 ? vec4(sin(angle) / size * momentum, cos(angle)) : vec4(0.0, 0.0, 0.0, 1.0);
+    vec2 half_turn = sineAndCosine(0.5 * h * middle * size);
+    vec4 common_ = size > 0.0 ? vec4(half_turn.x / size * momentum, half_turn.y) : vec4(0.0, 0.0, 0.0, 1.0);
     return normalize(turnAfter(common_, turn));
 }
 

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "lib/quaternion.glsl"
+#include "lib/trigonometry.glsl"
 #include "shared/body.h"
 #include "shared/hull.h"
 #include "shared/broad_phase.h"
@@ -27,12 +28,13 @@ const float kEndless = 4e6; // m, further than bodies can be
 
 vec4 turnAhead(BodyState body, float angle) {
     if (angle == 0.0) return body.turn;
-    return turnAfter(vec4(sin(0.5 * angle) * normalize(body.spin.xyz), cos(0.5 * angle)), body.turn);
+    vec2 half_turn = sineAndCosine(0.5 * angle);
+    return turnAfter(vec4(half_turn.x * normalize(body.spin.xyz), half_turn.y), body.turn);
 }
 
 // How far an arc leads beyond its chord.
 float bulgeOf(HullRecord hull, float angle) {
-    return (length(hull.center.xyz) + hull.center.w) * (1.0 - cos(0.5 * min(angle, kWholeTurn)));
+    return (length(hull.center.xyz) + hull.center.w) * (1.0 - sineAndCosine(0.5 * min(angle, kWholeTurn)).y);
 }
 
 // Of a plane, beyond its hull: along each axis as far as it leads there.
