@@ -2,7 +2,7 @@
 # tools/newer_lavapipe.sh PROGRAM [ARG...]: runs a program of this build on a newer lavapipe than the system's: that of Debian
 # forky. tools/newer_lavapipe.sh --obtain: obtains that lavapipe and prints its folder.
 #
-# The driver and the libraries it depends on are unpacked once (tools/unpack_debian.sh): 60 MB to download, 260 MB on disk.
+# The driver and the libraries it depends on are unpacked once (tools/unpack_debian.sh) and take 320 MB on disk.
 # The program runs by the newer suite's loader. Each library comes from the newer suite if that was unpacked (libstdc++, libz,
 # LLVM), otherwise from the system (assimp, qhull).
 # Exit code 77, with the reason: the driver cannot be obtained on this machine.
