@@ -81,6 +81,8 @@ Result<void> Device::openForeign() {
         return Error{ErrorCode::BadInput, "queue family " + std::to_string(foreign_.family) + " has no compute"};
     readProperties();
     features_ = foreign_.enabled;
+    // Hosts enable nothing for it.
+    features_.subgroup_vote = optionalFeatures(instance_vk_, physical_).subgroup_vote;
     if (gpuAssistedValidationIsOn()) features_.push_descriptors = false;
     handle_ = foreign_.device;
     compute_ = {foreign_.queue, foreign_.family, families[foreign_.family].timestampValidBits};
@@ -106,14 +108,23 @@ Result<void> Device::open(const DeviceOptions& options) {
     if (!chosen) return chosen.error();
     physical_ = *chosen;
     readProperties();
-    minimal_ = options.minimal;
     if (options.share_pipelines) shared_pipelines_ = std::make_unique<SharedPipelines>();
-    if (!minimal_) features_ = optionalFeatures(instance_vk_, physical_);
-    if (options.force_pooled_descriptors || gpuAssistedValidationIsOn()) features_.push_descriptors = false;
+    if (auto chose = chooseFeatures(options); !chose) return chose;
 
     pickFamilies();
     if (auto made = createLogical(); !made) return made;
     return createShared();
+}
+
+Result<void> Device::chooseFeatures(const DeviceOptions& options) {
+    if (!options.minimal) features_ = optionalFeatures(instance_vk_, physical_);
+    if (options.force_pooled_descriptors || gpuAssistedValidationIsOn()) features_.push_descriptors = false;
+    const char* without = std::getenv("BRITTLE_DEVICE_WITHOUT");
+    if (without == nullptr) return {};
+    auto rest = withoutFeatures(features_, without);
+    if (!rest) return Error{rest.error().code, "BRITTLE_DEVICE_WITHOUT: " + rest.error().message};
+    features_ = *rest;
+    return {};
 }
 
 void Device::readProperties() {
@@ -156,8 +167,10 @@ Result<void> Device::createLogical() {
         if (family == kNoFamily || (!queues.empty() && queues[0].queueFamilyIndex == family)) continue;
         queues.push_back({VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority});
     }
+    if (features_.push_descriptors) extensions_.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     std::vector<const char*> extensions;
-    if (features_.push_descriptors) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    for (const std::string& extension : extensions_)
+        extensions.push_back(extension.c_str());
     VkPhysicalDeviceFeatures enabled{};
     enabled.shaderInt64 = VK_TRUE;
     enabled.shaderFloat64 = features_.doubles ? VK_TRUE : VK_FALSE;

@@ -49,6 +49,8 @@ struct Queue {
 
 class Device {
 public:
+    // Opens a device of this machine. BRITTLE_DEVICE_WITHOUT in the environment lists optional features that it is opened
+    // without (withoutFeatures), to rehearse a lesser device. Errors: Device; BadInput for a name in that list that is unknown.
     static Result<std::unique_ptr<Device>> create(const DeviceOptions& options = {});
     // Works on another's device. Errors: BadInput for handles that are none or do not belong together, Feature for what the
     // device lacks or was made without, by name.
@@ -62,6 +64,8 @@ public:
     bool isCpu() const { return info_.cpu; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     const OptionalFeatures& features() const { return features_; }
+    // Names of the extensions that it was opened with; none of a foreign device.
+    const std::vector<std::string>& extensions() const { return extensions_; }
     bool hasPushDescriptors() const { return features_.push_descriptors; }
     uint32_t subgroupSize() const { return subgroup_.subgroupSize; }
     // VK_SUBGROUP_FEATURE_*, 0 where compute shaders have none.
@@ -106,6 +110,7 @@ private:
     Device() = default;
     Result<void> open(const DeviceOptions& options);
     Result<void> openForeign();
+    Result<void> chooseFeatures(const DeviceOptions& options);
     void readProperties();
     Result<void> createLogical();
     Result<void> createShared();
@@ -120,8 +125,8 @@ private:
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceSubgroupProperties subgroup_{};
     OptionalFeatures features_;
+    std::vector<std::string> extensions_;
     Queue compute_, graphics_;
-    bool minimal_ = false;
     VkDevice handle_ = VK_NULL_HANDLE;
     VolkDeviceTable table_{};
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;

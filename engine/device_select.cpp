@@ -8,11 +8,6 @@
 
 namespace engine {
 
-namespace {
-
-constexpr uint32_t kRequiredStorageBuffers = 16;
-constexpr uint32_t kRequiredPushBytes = 128;
-
 bool hasExtension(const InstanceFunctions& vk, VkPhysicalDevice device, const char* extension) {
     uint32_t count = 0;
     vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
@@ -20,6 +15,11 @@ bool hasExtension(const InstanceFunctions& vk, VkPhysicalDevice device, const ch
     vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, properties.data());
     return std::ranges::any_of(properties, [&](const auto& p) { return std::strcmp(p.extensionName, extension) == 0; });
 }
+
+namespace {
+
+constexpr uint32_t kRequiredStorageBuffers = 16;
+constexpr uint32_t kRequiredPushBytes = 128;
 
 bool hasComputeQueue(const InstanceFunctions& vk, VkPhysicalDevice device) {
     uint32_t count = 0;
@@ -94,19 +94,6 @@ std::string missingRequirements(const InstanceFunctions& vk, VkPhysicalDevice de
     require(properties.limits.maxPerStageDescriptorStorageBuffers >= kRequiredStorageBuffers, "16 storage buffers per stage");
     require(properties.limits.maxPushConstantsSize >= kRequiredPushBytes, "128 bytes of push constants");
     return missing;
-}
-
-OptionalFeatures optionalFeatures(const InstanceFunctions& vk, VkPhysicalDevice device) {
-    VkPhysicalDeviceFeatures features;
-    vk.vkGetPhysicalDeviceFeatures(device, &features);
-    OptionalFeatures optional;
-    optional.push_descriptors = hasExtension(vk, device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
-    optional.multi_draw_indirect = features.multiDrawIndirect == VK_TRUE;
-    optional.draw_indirect_first_instance = features.drawIndirectFirstInstance == VK_TRUE;
-    optional.driver_properties = hasExtension(vk, device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
-    optional.doubles = features.shaderFloat64 == VK_TRUE;
-    optional.shader_stores = features.fragmentStoresAndAtomics == VK_TRUE && features.vertexPipelineStoresAndAtomics == VK_TRUE;
-    return optional;
 }
 
 std::vector<VkPhysicalDevice> physicalDevices(const InstanceFunctions& vk, VkInstance instance) {

@@ -43,6 +43,12 @@ Result<void> checkInterface(const Kernel& kernel, const VkPhysicalDeviceLimits& 
     return {};
 }
 
+Result<void> checkCapabilities(const Kernel& kernel, const Device& device) {
+    const std::string lacking = lackingCapability(kernel.reflection.capabilities, device.features());
+    if (lacking.empty()) return {};
+    return Error{ErrorCode::Feature, refused(kernel.name, "needs " + lacking + ", which " + device.name() + " lacks").message};
+}
+
 Result<void> checkStorage(std::string_view kernel, std::span<const uint32_t> words, std::span<const SpecConstant> constants,
                           const VkPhysicalDeviceLimits& limits) {
     const uint64_t shared = storageOf(words, constants).shared.bytes;
@@ -127,6 +133,8 @@ bool KernelLibrary::isShared(std::string_view name) const {
     return reflection && shared->has(code->words, constantsOf(*reflection, {}));
 }
 
+const OptionalFeatures& KernelLibrary::deviceFeatures() const { return device_.features(); }
+
 uint32_t KernelLibrary::kernelCount() const {
     const std::lock_guard lock(mutex_);
     return static_cast<uint32_t>(kernels_.size());
@@ -155,6 +163,7 @@ Result<std::unique_ptr<Kernel>> KernelLibrary::make(std::string_view name, std::
     specializeLocalSize(kernel->reflection, constants);
     kernel->constants = constants;
     if (auto fit = checkInterface(*kernel, device_.limits()); !fit) return fit.error();
+    if (auto able = checkCapabilities(*kernel, device_); !able) return able.error();
     auto pipeline = makePipeline(*kernel, code.words);
     if (!pipeline) return pipeline.error();
     kernel->pipeline = std::move(*pipeline);

@@ -1,6 +1,7 @@
 // Compute pipelines by name, made when first asked for, with everything about them read from their SPIR-V.
 #pragma once
 
+#include "engine/device_features.h"
 #include "engine/pipeline.h"
 #include "engine/reflection.h"
 #include "shaders-spirv/embedded.h"
@@ -73,6 +74,7 @@ public:
     std::vector<std::vector<SpecConstant>> specializationsOf(std::string_view name) const;
 
     std::span<const shaders::Module> modules() const { return modules_; }
+    const OptionalFeatures& deviceFeatures() const;
     const std::vector<SpecConstant>& common() const { return common_; }
     uint32_t kernelCount() const;
     std::vector<std::string> kernelNames() const; // of those made so far, in order, each once

@@ -116,6 +116,7 @@ Result<Reflection> reflect(std::span<const uint32_t> words) {
     if (!parsed) return parsed.error();
     Reflection result;
     result.stage = stageOf(parsed->model);
+    result.capabilities = parsed->capabilities;
     setLocalSize(*parsed, result);
     addVariables(*parsed, result);
     addStructs(*parsed, result);

@@ -53,6 +53,7 @@ struct Reflection {
     std::vector<uint32_t> spec_ids;                        // ascending
     std::vector<std::string> spec_names;                   // of these; empty for what has none
     std::vector<ReflectedStruct> structs;
+    std::vector<uint32_t> capabilities; // numbers of SPIR-V capabilities, as declared
 };
 
 Result<Reflection> reflect(std::span<const uint32_t> words);

@@ -116,7 +116,9 @@ Result<SpirvModule> parseSpirv(std::span<const uint32_t> words) {
     for (size_t at = kHeaderWords; at < words.size();) {
         const size_t length = words[at] >> 16;
         if (length == 0 || at + length > words.size()) return Error{ErrorCode::BadInput, "a SPIR-V module that ends early"};
-        if (length >= 3) parsed.instruction(static_cast<spv::Op>(words[at] & 0xffffu), words.subspan(at + 1, length - 1));
+        const auto op = static_cast<spv::Op>(words[at] & 0xffffu);
+        if (op == spv::OpCapability && length == 2) parsed.capabilities.push_back(words[at + 1]);
+        if (length >= 3) parsed.instruction(op, words.subspan(at + 1, length - 1));
         at += length;
     }
     return parsed;

@@ -44,6 +44,7 @@ struct SpirvModule {
     std::map<uint32_t, std::vector<uint32_t>> reckoned; // from specialization constants: operation and operands
     std::map<uint32_t, std::vector<uint32_t>> composites;
     std::vector<SpirvVariable> variables;
+    std::vector<uint32_t> capabilities; // spv::Capability
     std::array<uint32_t, 3> local_size = {1, 1, 1};
     spv::ExecutionModel model = spv::ExecutionModelMax;
 

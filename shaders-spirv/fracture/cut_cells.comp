@@ -5,7 +5,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#ifndef NO_VOTE
 #extension GL_KHR_shader_subgroup_vote : require
+#endif
 #include "lib/kernel.glsl"
 
 FLAT_KERNEL;

@@ -300,8 +300,13 @@ void cutByListed(uint lane, ivec3 site) {
             e = first ? d : e;
             drained = ended && !found;
             found = found || first;
-            // Lanes go on while any has found nothing: what does not cut the cell as it is will not cut what is left of it.
+            // Lanes go on while any has found nothing: what does not cut the cell as it is will not cut what is left of it. So
+            // a lane that stops by itself finds the same candidates, and only later strikes off those that do not cut.
+#ifdef NO_VOTE
+            ready = found || ended;
+#else
             ready = subgroupAll(found || ended);
+#endif
             budget -= min(budget, 1u);
         }
         Look look = lookOver(e);

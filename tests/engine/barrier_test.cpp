@@ -144,6 +144,20 @@ TEST(Barriers, AreMissedBySynchronizationValidation) {
     finish(r.commands);
 }
 
+// A kernel that writes a buffer and declares that it only reads it gets no barrier, which the layer notices.
+TEST(Barriers, AreMissingAfterAKernelWhoseWriteIsNotDeclared) {
+    if (!synchronizationValidationIsOn())
+        GTEST_SKIP() << "without synchronization validation the missing barrier goes unnoticed";
+    expectValidationMessages(1);
+    Recording r;
+    Kernel undeclared = testKernel(device(), "add_index");
+    undeclared.reflection.bindings[1].readonly = true;
+    undeclared.reflection.bindings[1].writeonly = false;
+    r.commands.dispatch(undeclared, kCount, AddIndexPush{kCount, 1}, {r.a, r.b});
+    r.readWrite(r.b, r.c);
+    EXPECT_EQ(r.barriers(), 0u);
+}
+
 TEST(HazardTracker, NamesTheStagesAndWritesToWaitFor) {
     HazardTracker tracker;
     int anything = 0;

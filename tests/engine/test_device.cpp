@@ -44,6 +44,17 @@ bool environmentHas(const char* variable, const char* part) {
     return value != nullptr && std::strstr(value, part) != nullptr;
 }
 
+// The loader leaves out layers that are asked for and not installed.
+bool isInstalled(const char* layer) {
+    const auto list = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
+        engine::loaderFunction()(nullptr, "vkEnumerateInstanceLayerProperties"));
+    uint32_t count = 0;
+    list(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    list(&count, layers.data());
+    return std::ranges::any_of(layers, [&](const auto& l) { return std::strcmp(l.layerName, layer) == 0; });
+}
+
 } // namespace
 
 engine::Device& device() { return deviceOf(kFull); }
@@ -97,7 +108,8 @@ void finish(engine::Commands& commands) {
 bool validationIsOn() { return environmentHas("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"); }
 
 bool synchronizationValidationIsOn() {
-    return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
+    return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_SYNCHRONIZATION_VALIDATION_EXT") &&
+           isInstalled("VK_LAYER_KHRONOS_validation");
 }
 
 } // namespace engine_test

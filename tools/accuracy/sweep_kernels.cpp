@@ -43,7 +43,8 @@ bool isNeverMetInDoubles(std::string_view name) {
 // when it is met, what is not, for nothing.
 bool isNeverMet(const shaders::Module& module) {
     return module.file.starts_with("effects/") || module.file.starts_with("draw/") || module.name.ends_with("_wide") ||
-           module.name.find("strikes") != std::string_view::npos || isNeverMetInDoubles(module.name);
+           module.name.find("strikes") != std::string_view::npos || module.name.find("_no_vote") != std::string_view::npos ||
+           isNeverMetInDoubles(module.name);
 }
 
 bool isMetInFloats(std::string_view name) {

@@ -8,7 +8,8 @@
 
 namespace brittle {
 
-// `spec` is the value of constant 0, 0 where the kernel has none.
+// Finds the version of kernel `name` for a precision; on a device without subgroup votes, NAME_no_vote if there is one.
+// `spec` is the value of constant 0, or 0 if the kernel has none. Errors: those of KernelLibrary::get.
 engine::Result<const engine::Kernel*> kernelFor(engine::KernelLibrary& kernels, std::string_view name, uint32_t spec,
                                                 Precision precision);
 

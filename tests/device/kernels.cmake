@@ -1,0 +1,2 @@
+# Kernels that only the tests of devices use.
+kernel(eight_lanes.comp)
