@@ -60,7 +60,7 @@ void expectAgreesWithItself(World& first, World& second, uint32_t steps) {
     EXPECT_FALSE(found->first_difference);
     EXPECT_EQ(found->motion.position_m, 0);
     EXPECT_GT(found->motion.bodies, 0u);
-    // Nor does a pass of the next step differ.
+    // No pass of the next step differs, either.
     const auto state = first.save();
     ASSERT_TRUE(state);
     const auto step = brittle::compareStep({engine_test::device(), first}, {engine_test::device(), second}, *state, *state);
@@ -110,7 +110,7 @@ TEST(SmallComparison, SaysWhyBuffersDiffer) {
     EXPECT_TRUE(brittle::isUnordered(bufferOf("edge_table", sound)));
     EXPECT_FALSE(brittle::isUnordered(bufferOf("bodies", sound)));
     EXPECT_EQ(classified("list", {sound, unstable}, {unstable, sound}).row.kind, DifferenceKind::Unstable);
-    // What one device does not repeat hides no difference in another element.
+    // An element that a device does not repeat hides no difference in another element.
     const Classified both = classified("list", {sound, unstable}, {faulty, faulty});
     EXPECT_EQ(both.row.kind, DifferenceKind::Differs);
     EXPECT_EQ(both.row.first->element_a, 2u);
@@ -179,7 +179,7 @@ TEST(Comparison, FindsNothingBetweenADeviceAndItselfInTheStepThatBreaks) {
         ASSERT_TRUE(breaks);
         if (!breaks->events.empty()) break;
     }
-    ASSERT_GT(before, 0u);
+    ASSERT_LT(before, 60u);
     const auto first = breaking_scenes::worldOf(scene), second = breaking_scenes::worldOf(scene);
     expectAgreesWithItself(*first, *second, before);
 }

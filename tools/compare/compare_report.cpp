@@ -94,7 +94,7 @@ std::string valuesOf(const ValueDifference& value) { return value.member + " " +
 
 void printRow(const BufferDifference& row, bool is_finding) {
     const std::string value = row.first ? valuesOf(*row.first) : "";
-    std::printf("%c %4u  %-11s %-20s %-20s %-10s %14s  %s\n", is_finding ? '>' : ' ', row.pass_a, row.stage.c_str(),
+    std::printf("%c %4u  %-16s %-20s %-18s %-9s %14s  %s\n", is_finding ? '>' : ' ', row.pass_a, row.stage.c_str(),
                 kernelOf(row).c_str(), slotOf(row).c_str(), std::string(nameOf(row.kind)).c_str(), countOf(row).c_str(),
                 value.c_str());
 }
@@ -112,8 +112,8 @@ std::vector<const BufferDifference*> shownRows(const brittle::StepComparison& co
 void printRows(const brittle::StepComparison& comparison) {
     const auto rows = shownRows(comparison);
     if (!rows.empty())
-        std::printf(
-            "\n  pass  stage       kernel               buffer               kind             elements  first value, A | B\n");
+        std::printf("\n  pass  %-16s %-20s %-18s %-9s %14s  first value, A | B\n", "stage", "kernel", "buffer", "kind",
+                    "elements");
     for (const BufferDifference* row : rows)
         printRow(*row, row == comparison.finding());
     if (comparison.is_cut) std::printf("        later passes are left out\n");
