@@ -84,6 +84,8 @@ Result<void> Commands::begin(Reuse reuse) {
     barrier_count_ = 0;
     label_.clear();
     if (trace_) trace_->clear();
+    probe_ = nullptr;
+    probed_.reset();
     if (external_) return {};
     if (pool_ == VK_NULL_HANDLE) {
         if (auto made = createOwn(reuse == Reuse::ByOthers); !made) return made;
@@ -184,6 +186,7 @@ void Commands::dispatchGrid(const Kernel& kernel, uint32_t groups, Bytes push, V
     device_.vk().vkCmdDispatch(commands_, (groups - 1) / rows + 1, rows, 1);
     if (time_kernels_) timestamps_.end(commands_);
     ++dispatch_count_;
+    runAlone();
 }
 
 void Commands::dispatchIndirect(const Kernel& kernel, BufferView args, Bytes push, Views buffers) {
@@ -197,6 +200,7 @@ void Commands::dispatchIndirect(const Kernel& kernel, BufferView args, Bytes pus
     device_.vk().vkCmdDispatchIndirect(commands_, args.buffer->handle(), args.offset);
     if (time_kernels_) timestamps_.end(commands_);
     ++dispatch_count_;
+    runAlone();
 }
 
 bool Commands::prepare(const Kernel& kernel, Bytes push, Views buffers, const BufferView* args) {
@@ -291,6 +295,7 @@ void Commands::fill(BufferView target, uint32_t value) {
     const Access access = accessOf(target, true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     declare({&access, 1});
     device_.vk().vkCmdFillBuffer(commands_, target.buffer->handle(), target.offset, target.size, value);
+    runAlone();
 }
 
 void Commands::copy(BufferView source, BufferView target) {
@@ -307,6 +312,7 @@ void Commands::copy(BufferView source, BufferView target) {
     declare(accesses);
     const VkBufferCopy region{source.offset, target.offset, source.size};
     device_.vk().vkCmdCopyBuffer(commands_, source.buffer->handle(), target.buffer->handle(), 1, &region);
+    runAlone();
 }
 
 void Commands::update(BufferView target, Bytes bytes) {
@@ -322,6 +328,7 @@ void Commands::update(BufferView target, Bytes bytes) {
     const Access access = accessOf(part, true, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     declare({&access, 1});
     device_.vk().vkCmdUpdateBuffer(commands_, target.buffer->handle(), target.offset, bytes.size(), bytes.data());
+    runAlone();
 }
 
 void Commands::beginLabel(std::string_view name) {
@@ -331,7 +338,7 @@ void Commands::beginLabel(std::string_view name) {
     }
     label_ = name;
     if (!time_kernels_) beginSpan(name);
-    if (!device_.hasDebugUtils()) return;
+    if (!device_.hasDebugUtils() || probe_ != nullptr) return; // labels that span recordings make lavapipe crash
     const std::string terminated(name);
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
     label.pLabelName = terminated.c_str();
@@ -341,17 +348,23 @@ void Commands::beginLabel(std::string_view name) {
 void Commands::endLabel() {
     label_.clear();
     if (!time_kernels_) timestamps_.end(commands_);
-    if (device_.hasDebugUtils()) device_.instanceFunctions().vkCmdEndDebugUtilsLabelEXT(commands_);
+    if (device_.hasDebugUtils() && probe_ == nullptr) device_.instanceFunctions().vkCmdEndDebugUtilsLabelEXT(commands_);
 }
 
 void Commands::beginSpan(std::string_view name) {
-    if (secondary_) return;
+    if (secondary_ || probe_ != nullptr) return;
     if (auto begun = timestamps_.begin(commands_, name); !begun) fail(begun.error());
 }
 
 void Commands::note(TracedCommand::Kind kind, const Kernel* kernel, uint32_t count, Views buffers,
                     const BufferView& arguments) {
-    if (trace_) trace_->push_back({kind, label_, kernel, count, arguments, {buffers.begin(), buffers.end()}});
+    if (!trace_ && probe_ == nullptr) return;
+    TracedCommand command = {kind, label_, kernel, count, arguments, {buffers.begin(), buffers.end()}};
+    if (probe_ != nullptr && !error_) {
+        probed_ = command;
+        if (auto shown = probe_->before(command); !shown) fail(shown.error());
+    }
+    if (trace_) trace_->push_back(std::move(command));
 }
 
 void Commands::flush() {

@@ -34,6 +34,17 @@ struct TracedCommand {
     std::vector<BufferView> buffers; // by binding; of a fill the target, of a copy source and target
 };
 
+// Is shown every command of a recording before and after the device runs it. Nothing else runs meanwhile, so that what a
+// command has done can be read from its buffers.
+class CommandProbe {
+public:
+    virtual ~CommandProbe() = default;
+    // An error ends the recording: it is the one that status() and submitAndWait() return. A command that was refused has no
+    // `after`.
+    virtual Result<void> before(const TracedCommand& command) = 0;
+    virtual Result<void> after(const TracedCommand& command) = 0;
+};
+
 class Commands {
 public:
     // ByOthers: a secondary command buffer, which command buffers of others execute, several of them at a time; nothing in it
@@ -105,6 +116,9 @@ public:
     // From here on every command is noted down as well.
     void keepTrace() { trace_.emplace(); }
     std::span<const TracedCommand> trace() const { return trace_ ? *trace_ : std::span<const TracedCommand>(); }
+    // Submits every command from here to the end of the recording on its own, waits for it, and shows it to `probe`, which
+    // outlives the recording. Of recordings that were begun with Reuse::Once; nothing in them is timed.
+    void showTo(CommandProbe& probe) { probe_ = &probe; }
     // Once the device has finished.
     Result<std::vector<Timing>> timings() const { return timestamps_.read(); }
     // The same one by one, in ms and in the order of the recording: of labels, or of dispatches where kernels are timed.
@@ -141,6 +155,8 @@ private:
     bool bindBuffers(const Kernel& kernel, Views buffers);
     void dispatchGrid(const Kernel& kernel, uint32_t groups, Bytes push, Views buffers);
     void note(TracedCommand::Kind kind, const Kernel* kernel, uint32_t count, Views buffers, const BufferView& arguments = {});
+    void runAlone();
+    Result<void> runRecorded();
     void declare(std::span<const Access> accesses);
     void beginSpan(std::string_view name);
     Result<void> createOwn(bool secondary);
@@ -159,6 +175,8 @@ private:
     Timestamps timestamps_;
     std::optional<Error> error_;
     std::optional<std::vector<TracedCommand>> trace_;
+    CommandProbe* probe_ = nullptr;
+    std::optional<TracedCommand> probed_; // shown, and not run yet
     std::string label_;
     uint32_t dispatch_count_ = 0;
     uint32_t barrier_count_ = 0;

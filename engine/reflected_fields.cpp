@@ -29,6 +29,7 @@ public:
         uint32_t offset = 0; // in that struct, or in the element of an array
         std::string within;  // which array that element is of, and where this is
         uint32_t matrix_stride = 0;
+        std::vector<ReflectedArray> arrays;
     };
 
     void addStruct(uint32_t id, const Place& place, uint32_t depth) {
@@ -52,12 +53,12 @@ public:
 private:
     void add(uint32_t id, const Place& place, uint32_t depth) {
         const SpirvType* type = module_.find(id);
-        if (type == nullptr || type->operands.empty()) return addLeaf("something", place);
+        if (type == nullptr || type->operands.empty()) return addLeaf(nullptr, place);
         switch (type->op) {
         case spv::OpTypeStruct: return addStruct(id, place, depth);
         case spv::OpTypeArray:
         case spv::OpTypeRuntimeArray: return addArray(id, *type, place, depth);
-        default: return addLeaf(leafOf(*type, place), place);
+        default: return addLeaf(type, place);
         }
     }
 
@@ -65,19 +66,20 @@ private:
         const auto stride = module_.decorations.find(id);
         const uint32_t bytes = stride == module_.decorations.end() ? 0 : stride->second.get(spv::DecorationArrayStride);
         std::string count;
+        ReflectedArray array = {place.offset, bytes, 0};
         if (type.op == spv::OpTypeArray && type.operands.size() > 1)
             if (const auto length = module_.constants.find(type.operands[1]); length != module_.constants.end())
-                count = std::to_string(length->second) + " times ";
+                count = std::to_string(array.count = length->second) + " times ";
         place.path += "[]";
         place.within =
             " of " + count + std::to_string(bytes) + " bytes each from byte " + std::to_string(place.offset) + place.within;
         place.offset = 0;
+        place.arrays.insert(place.arrays.begin(), array);
         add(type.operands[0], place, depth + 1);
     }
 
     std::string leafOf(const SpirvType& type, const Place& place) const {
-        const SpirvType* part =
-            type.op == spv::OpTypeInt || type.op == spv::OpTypeFloat ? &type : module_.find(type.operands[0]);
+        const SpirvType* part = partOf(type);
         if (part == nullptr || part->operands.empty() || type.operands.empty()) return "something";
         if (type.op == spv::OpTypeVector) return scalarOf(*part) + " x " + std::to_string(type.operands[1]);
         if (type.op == spv::OpTypeMatrix)
@@ -85,9 +87,32 @@ private:
                    std::to_string(place.matrix_stride) + " bytes apart";
         return scalarOf(type);
     }
+    // What a vector or a matrix is made of; of a number itself.
+    const SpirvType* partOf(const SpirvType& type) const {
+        return type.op == spv::OpTypeInt || type.op == spv::OpTypeFloat ? &type : module_.find(type.operands[0]);
+    }
+    static bool isNumber(const SpirvType& type) {
+        return (type.op == spv::OpTypeInt || type.op == spv::OpTypeFloat) && !type.operands.empty();
+    }
 
-    void addLeaf(const std::string& type, const Place& place) {
-        fields_.push_back({place.path, place.holder, type + " at byte " + std::to_string(place.offset) + place.within});
+    void setNumbers(const SpirvType& type, ReflectedField& field) const {
+        if (isNumber(type)) {
+            field.scalar = scalarOf(type);
+            return;
+        }
+        if ((type.op != spv::OpTypeVector && type.op != spv::OpTypeMatrix) || type.operands.size() < 2) return;
+        (type.op == spv::OpTypeVector ? field.rows : field.columns) = type.operands[1];
+        if (const SpirvType* part = partOf(type)) setNumbers(*part, field);
+    }
+
+    void addLeaf(const SpirvType* type, const Place& place) {
+        const std::string name = type == nullptr || type->operands.empty() ? "something" : leafOf(*type, place);
+        ReflectedField field = {place.path, place.holder, name + " at byte " + std::to_string(place.offset) + place.within};
+        if (name != "something") setNumbers(*type, field);
+        field.matrix_stride = place.matrix_stride;
+        field.offset = place.offset;
+        field.arrays = place.arrays;
+        fields_.push_back(std::move(field));
     }
 
     const SpirvModule& module_;

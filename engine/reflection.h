@@ -12,11 +12,23 @@
 
 namespace engine {
 
+// An array that a field lies in.
+struct ReflectedArray {
+    uint32_t first = 0;  // byte of the first element in the element of the next array outside, or in the block
+    uint32_t stride = 0; // bytes from one element to the next
+    uint32_t count = 0;  // 0: as many as the buffer holds
+};
+
 // A number, vector or matrix in a block, however deep in arrays and structs of it.
 struct ReflectedField {
     std::string path;   // "bodies[].offset"
     std::string holder; // the struct that it is a member of
     std::string layout; // type and place in words: equal only where host and shader mean the same bytes
+    std::string scalar; // type of one number: "float", "uint64"; empty for what is neither number, vector nor matrix
+    uint32_t rows = 1, columns = 1;     // of a vector `rows` numbers, of a matrix `columns` vectors
+    uint32_t matrix_stride = 0;         // bytes from column to column
+    uint32_t offset = 0;                // bytes, in the element of the innermost array, or in the block
+    std::vector<ReflectedArray> arrays; // from the innermost to the outermost
 };
 
 struct ReflectedBinding {

@@ -42,11 +42,15 @@ CLI::Option* inRange(CLI::Option* option, double low, double high) {
     });
 }
 
-void addDeviceOptions(CLI::App& command, std::string& device, uint32_t& group_size, const std::string& same) {
-    command.add_option("--device", device, "a part of its name, or its index; see brittle devices");
+void addGroupSizeOption(CLI::App& command, uint32_t& group_size, const std::string& same) {
     command.add_option("--group-size", group_size, "lanes of a workgroup, a power of two from 8 to 256" + same)
         ->check(groupSize)
         ->option_text("N [64]");
+}
+
+void addDeviceOptions(CLI::App& command, std::string& device, uint32_t& group_size, const std::string& same) {
+    command.add_option("--device", device, "a part of its name, or its index; see brittle devices");
+    addGroupSizeOption(command, group_size, same);
 }
 
 int fail(const engine::Error& error) {

@@ -22,6 +22,7 @@ void addSimulate(CLI::App& app, int& exit_code);
 void addBench(CLI::App& app, int& exit_code);    // in tools/bench
 void addAccuracy(CLI::App& app, int& exit_code); // in tools/accuracy
 void addHard(CLI::App& app, int& exit_code);     // in tools/hard
+void addCompare(CLI::App& app, int& exit_code);  // in tools/compare
 
 // A check of a name that may not be empty.
 std::string someText(const std::string& text);
@@ -30,6 +31,7 @@ std::string someText(const std::string& text);
 CLI::Option* inRange(CLI::Option* option, double low, double high);
 
 // --device and --group-size; `same` ends the sentence on the latter, such as "; the motion is the same".
+void addGroupSizeOption(CLI::App& command, uint32_t& group_size, const std::string& same = "");
 void addDeviceOptions(CLI::App& command, std::string& device, uint32_t& group_size, const std::string& same = "");
 
 // Prints "brittle: MESSAGE" as one line on stderr.

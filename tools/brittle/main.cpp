@@ -8,8 +8,8 @@
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli::addDoctor,   cli::addScenes,
-                                         cli::addSimulate, cli::addPlan,    cli::addAccuracy, cli::addHard, cli::addBench};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor,   cli::addScenes, cli::addSimulate,
+                                         cli::addPlan,    cli::addCompare, cli::addAccuracy, cli::addHard,   cli::addBench};
 
 constexpr const char* kFooter =
     "Examples:\n"

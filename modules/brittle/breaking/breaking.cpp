@@ -139,6 +139,12 @@ public:
         if (debris_) std::ranges::copy(debris_->stateViews(), std::back_inserter(views));
         return views;
     }
+    std::vector<BufferView> stepMemory() const override {
+        const ScenePools s = scene_->views();
+        const ColliderPools c = colliders_->views();
+        return {passing_->buffer(), s.vertices,  s.indices, s.draw_commands, s.objects,  s.matrices,
+                s.bounds,           s.fragments, c.records, c.faces,         c.vertices, c.corners};
+    }
     std::vector<NamedBuffer> buffers() const override {
         std::vector<NamedBuffer> named = namedBuffers(l_, p_, pools_);
         const BufferView range(&passing_->buffer(), fracture_begin_, passing_->capacity() - fracture_begin_);

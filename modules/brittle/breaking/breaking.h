@@ -38,6 +38,8 @@ public:
     virtual engine::Result<Breaks> tell(uint32_t& heard) = 0;
     // All that the next step depends on, beside what the world has.
     virtual std::vector<engine::BufferView> stateViews() const = 0;
+    // Memory whose contents a step makes before it reads them.
+    virtual std::vector<engine::BufferView> stepMemory() const = 0;
     // All of its own, by name.
     virtual std::vector<NamedBuffer> buffers() const = 0;
     virtual engine::BufferView arguments() const = 0; // of the event's dispatches

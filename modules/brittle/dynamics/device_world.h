@@ -45,6 +45,7 @@ public:
     // Of the first step; the second is the same with the two memories of contacts exchanged. Recorded and not submitted.
     engine::Result<StepPlan> plan() override;
     engine::Result<std::vector<double>> measure(uint32_t steps) override;
+    engine::Result<void> probeStep(PassProbe& probe) override;
     engine::Result<void> timeKernels(bool on) override;
     engine::KernelLibrary& kernels() override { return kernels_; }
     engine::Result<void> kernelsChanged() override;
@@ -93,6 +94,8 @@ private:
     engine::Result<void> failureOf(const std::vector<uint32_t>& words) const;
     std::vector<StateView> stateViews() const;
     PlannedMemory memory() const;
+    // Buffers whose contents a step makes before it reads them.
+    std::vector<engine::BufferView> stepMemory() const;
     engine::Result<std::vector<double>> mediansOf(uint32_t steps);
     bool has(Effect effect) const { return b_.sizes.effects.has(effect); }
 

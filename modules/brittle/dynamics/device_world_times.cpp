@@ -58,6 +58,48 @@ Result<std::vector<double>> DeviceWorld::mediansOf(uint32_t steps) {
     return medians;
 }
 
+namespace {
+
+// Names the passes for a probe.
+class NamedCommands final : public engine::CommandProbe {
+public:
+    NamedCommands(PassProbe& probe, PlannedMemory memory) : probe_(probe), memory_(std::move(memory)) {}
+    Result<void> before(const engine::TracedCommand& command) override {
+        pass_ = passOf(command, memory_);
+        return probe_.before(pass_, command);
+    }
+    Result<void> after(const engine::TracedCommand& command) override { return probe_.after(pass_, command); }
+
+private:
+    PassProbe& probe_;
+    PlannedMemory memory_;
+    Pass pass_;
+};
+
+} // namespace
+
+Result<void> DeviceWorld::probeStep(PassProbe& probe) {
+    if (auto settled = settle(); !settled) return settled;
+    if (strikes_.contains(made_))
+        return engine::Error{engine::ErrorCode::BadInput, "a step with a blow by hand cannot be probed; make it with step()"};
+    engine::Commands commands(device_);
+    if (auto begun = commands.begin(); !begun) return begun;
+    for (const engine::BufferView& view : stepMemory())
+        commands.fill(view, 0);
+    NamedCommands named(probe, memory());
+    commands.showTo(named);
+    if (auto recorded = recordInto(commands, made_ & 1); !recorded) return recorded;
+    if (auto ran = commands.submitAndWait(); !ran) return ran;
+    ++ahead_;
+    return settle();
+}
+
+std::vector<engine::BufferView> DeviceWorld::stepMemory() const {
+    std::vector<engine::BufferView> views = {b_.counts, b_.args, b_.arena->buffer()};
+    if (breaking_) std::ranges::copy(breaking_->stepMemory(), std::back_inserter(views));
+    return views;
+}
+
 PlannedMemory DeviceWorld::memory() const {
     PlannedMemory memory = {b_.sizes.effects, b_.named, b_.args, {}};
     if (!breaking_) return memory;

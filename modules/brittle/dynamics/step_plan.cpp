@@ -107,6 +107,8 @@ uint64_t StepPlan::bytesOf(std::optional<Effect> effect) const {
     return sum;
 }
 
+Pass passOf(const TracedCommand& command, const PlannedMemory& memory) { return Planner(memory).passOf(command); }
+
 StepPlan planOf(std::span<const TracedCommand> trace, const PlannedMemory& memory, std::vector<std::string> kernels) {
     StepPlan plan = {memory.effects, {}, {}, std::move(kernels)};
     const Planner planner(memory);

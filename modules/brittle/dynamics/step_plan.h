@@ -59,6 +59,17 @@ struct PlannedMemory {
     engine::BufferView args, fracture_args; // of dispatches; of those of fracture, where there is any
 };
 
+// Is shown every pass of a step before and after the device runs it (World::probeStep). An error ends the step.
+class PassProbe {
+public:
+    virtual ~PassProbe() = default;
+    // `command`: the pass as it was recorded. The views of a dispatch are in the order of `pass.buffers`; the last view of a
+    // fill or a copy is its target.
+    virtual engine::Result<void> before(const Pass& pass, const engine::TracedCommand& command) = 0;
+    virtual engine::Result<void> after(const Pass& pass, const engine::TracedCommand& command) = 0;
+};
+
+Pass passOf(const engine::TracedCommand& command, const PlannedMemory& memory);
 StepPlan planOf(std::span<const engine::TracedCommand> trace, const PlannedMemory& memory, std::vector<std::string> kernels);
 
 } // namespace brittle

@@ -1,0 +1,131 @@
+// brittle compare as its users meet it.
+#include "tests/support/folder_test.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace {
+
+using nlohmann::json;
+using support::Outcome;
+using support::runProgram;
+
+class CompareCli : public support::FolderTest {
+protected:
+    static Outcome compare(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "compare");
+        return runProgram("brittle", arguments);
+    }
+    static void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& holds) {
+        const Outcome run = compare(arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_NE(run.err.find(holds), std::string::npos) << run.err;
+        EXPECT_TRUE(run.out.empty()) << run.out;
+    }
+    // A box that falls onto the ground.
+    std::string fallingBox(double height = 1.5) const {
+        std::ofstream(path("box.toml")) << "name = \"box\"\n[[body]]\nname = \"box\"\nplace = [0, " << height
+                                        << ", 0]\nspin = [1, 2, 3]\n[[collider]]\nname = \"ground\"\n";
+        return path("box.toml");
+    }
+    static json parsed(const Outcome& run) {
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return json::parse(run.out, nullptr, false);
+    }
+    // Takes a bit of a body's velocity after a step, as another driver might.
+    static void spoil(const std::string& file, size_t step) {
+        std::ifstream in(file, std::ios::binary);
+        const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+        json recording = json::from_cbor(bytes);
+        for (size_t k = step - 1; k < recording["steps"].size(); ++k)
+            recording["steps"][k].get_binary().at(3 * 16) ^= 1; // the lowest bit of velocity.x of the first body
+        const std::vector<uint8_t> spoiled = json::to_cbor(recording);
+        std::ofstream(file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(spoiled.data()), static_cast<std::streamsize>(spoiled.size()));
+    }
+};
+
+TEST_F(CompareCli, ADeviceAgreesWithItself) {
+    const Outcome run = compare({"--device", "0", "--device", "0", fallingBox(), "--steps", "30"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("are the same bit for bit after each of 30 steps"), std::string::npos) << run.out;
+    const json report = parsed(compare({"--device", "0", "--device", "0", fallingBox(), "--seconds", "0.2", "--json"}));
+    EXPECT_EQ(report["agree"], true);
+    EXPECT_EQ(report["steps"], 12);
+    EXPECT_EQ(report["device_a"], report["device_b"]);
+    EXPECT_TRUE(report["first_difference"].is_null());
+    EXPECT_TRUE(report["passes"].is_null());
+    EXPECT_EQ(report["motion"]["position_m"], 0);
+    EXPECT_EQ(report["motion"]["bodies"], 2);
+}
+
+TEST_F(CompareCli, ADeviceAgreesWithItselfWhereAPaneBreaks) {
+    const std::string pane = std::string(BRITTLE_SOURCE_DIR) + "/modules/brittle/scene/examples/window_pane.toml";
+    const json report = parsed(compare({"--device", "0", "--device", "0", pane, "--json", "--fail-on-difference"}));
+    EXPECT_EQ(report["agree"], true) << report;
+    EXPECT_GT(report["motion"]["bodies"], 5); // fragments among them
+}
+
+TEST_F(CompareCli, AgreesWithItsOwnRecording) {
+    const std::string file = path("box.motion");
+    const Outcome run = compare({"--device", "0", fallingBox(), "--steps", "20", "--record", file, "--passes-of", "5"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("20 steps of box"), std::string::npos) << run.out;
+    const json report = parsed(compare({"--device", "0", fallingBox(), "--against", file, "--json"}));
+    EXPECT_EQ(report["agree"], true) << report;
+    EXPECT_EQ(report["steps"], 20);
+    EXPECT_EQ(report["passes"]["step"], 5);
+    EXPECT_EQ(report["passes"]["aligned"], report["passes"]["passes_a"]);
+    EXPECT_GT(report["passes"]["passes_a"], 10);
+    EXPECT_TRUE(report["passes"]["rows"].empty()) << report["passes"]["rows"];
+}
+
+TEST_F(CompareCli, SaysWhereAMotionLeavesARecording) {
+    const std::string file = path("box.motion");
+    ASSERT_EQ(compare({"--device", "0", fallingBox(), "--steps", "12", "--record", file}).exit_code, 0);
+    spoil(file, 7);
+    const json report = parsed(compare({"--device", "0", fallingBox(), "--against", file, "--json"}));
+    EXPECT_EQ(report["agree"], false);
+    EXPECT_EQ(report["steps"], 7);
+    EXPECT_EQ(report["first_difference"]["step"], 7);
+    EXPECT_EQ(report["first_difference"]["name"], "box");
+    EXPECT_EQ(report["first_difference"]["member"], "velocity.x");
+    EXPECT_GT(report["motion"]["linear_velocity"], 0);
+    EXPECT_EQ(parsed(compare({"--device", "0", fallingBox(), "--against", file, "--whole", "--json"}))["steps"], 12);
+    const Outcome strict = compare({"--device", "0", fallingBox(), "--against", file, "--fail-on-difference"});
+    EXPECT_EQ(strict.exit_code, 1);
+    EXPECT_NE(strict.out.find("differ after step 7: body 0 \"box\", velocity.x"), std::string::npos) << strict.out;
+}
+
+TEST_F(CompareCli, WantsTwoDevicesThatAreThere) {
+    expectRefused({"--device", "0", fallingBox()}, 2, "--device is given 1 times, must be given twice");
+    expectRefused({fallingBox()}, 2, "--device");
+    expectRefused({"--device", "0", "--device", "0", "--device", "0", fallingBox()}, 2, "--device is given 3 times");
+    expectRefused({"--device", "0", "--device", "no such card", fallingBox()}, 4, "no usable device matches \"no such card\"");
+    expectRefused({"--device", "0", "--device", "99", fallingBox()}, 4, "no usable device matches \"99\"");
+}
+
+TEST_F(CompareCli, RefusesBadScenesAndFiles) {
+    expectRefused({"--device", "0", "--device", "0", "no_such_scene"}, 2, "no_such_scene");
+    expectRefused({"--device", "0", "--device", "0", path("none.toml")}, 2, "none.toml");
+    expectRefused({"--device", "0", "stack_10", "--against", path("none.motion")}, 2, "none.motion: cannot be read");
+    std::ofstream(path("bad.motion")) << "no motion";
+    expectRefused({"--device", "0", "stack_10", "--against", path("bad.motion")}, 2, "bad.motion: is no recorded motion");
+    expectRefused({"--device", "0", fallingBox(), "--steps", "3", "--record", path("box.motion"), "--passes-of", "4"}, 2,
+                  "only 3 steps are recorded");
+    EXPECT_FALSE(std::filesystem::exists(path("box.motion")));
+}
+
+TEST_F(CompareCli, RefusesTheRecordingOfAnotherScene) {
+    const std::string file = path("box.motion");
+    ASSERT_EQ(compare({"--device", "0", fallingBox(), "--steps", "3", "--record", file}).exit_code, 0);
+    expectRefused({"--device", "0", "stack_10", "--against", file}, 2, "is a recording of the scene \"box\"");
+    expectRefused({"--device", "0", fallingBox(), "--against", file, "--steps", "4"}, 2, "the recording has 3 steps");
+}
+
+} // namespace
