@@ -3,6 +3,7 @@
 #include "tests/engine/loaded/tick_module.h"
 #include "tests/engine/test_device.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,9 @@ using namespace engine_test;
 
 namespace {
 
-std::filesystem::path built(const std::string& name) { return std::filesystem::path(BRITTLE_MODULE_DIR) / (name + ".so"); }
+std::filesystem::path built(const std::string& name) {
+    return support::folderFrom("BRITTLE_TEST_MODULES", BRITTLE_MODULE_DIR) / (name + ".so");
+}
 
 // Runs a few frames of whatever is in a registry and asks the module "tick" for its count.
 void expectTicks(ModuleRegistry& registry) {

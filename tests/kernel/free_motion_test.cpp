@@ -180,11 +180,11 @@ TEST(SmallFreeMotion, KeepsTheEnergyOfItsTurning) {
     }
 }
 
-// Of two equal moments the splitting is exact, so that nothing but rounding is left.
+// Of two equal moments the splitting is exact, so that nothing but rounding is left. The body keeps its size: one without
+// thickness stops as soon as rounding takes it off its way.
 TEST(SmallFreeMotion, OfATopWithTwoEqualMomentsIsExact) {
     for (uint32_t seed = 0; seed < 5; ++seed) {
         RigidBody body = tumbling(seed, 8);
-        body.shape.inverse_inertia[seed % 3] = body.shape.inverse_inertia[(seed + 1) % 3] = {};
         const float twice = 0.7f, once = 0.4f;
         body.shape.inverse_inertia[0].x = seed % 3 == 1 ? once : twice;
         body.shape.inverse_inertia[1].y = seed % 3 == 2 ? once : twice;

@@ -2,6 +2,7 @@
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "modules/brittle/scene/scene_file.h"
+#include "tests/support/folders.h"
 #include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
@@ -128,7 +129,7 @@ SceneDescription randomScene(uint32_t seed) {
 }
 
 SceneDescription example(const std::string& name) {
-    const fs::path file = fs::path(BRITTLE_SOURCE_DIR) / "modules" / "brittle" / "scene" / "examples" / (name + ".toml");
+    const fs::path file = support::sourceFolder() / "modules" / "brittle" / "scene" / "examples" / (name + ".toml");
     auto scene = brittle::readScene(file);
     EXPECT_TRUE(scene);
     for (BodyDescription& body : scene->bodies)

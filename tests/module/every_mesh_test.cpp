@@ -3,6 +3,7 @@
 // else has looked at a model, a refusal has to agree with that.
 #include "modules/brittle/mesh/check.h"
 #include "tests/module/whole_fracture.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared_meshes.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace whole;
 
-fs::path corpusFolder() { return fs::path(BRITTLE_SOURCE_DIR) / "build" / "corpus" / "libcgal-demo" / "meshes"; }
+fs::path corpusFolder() { return support::sourceFolder() / "build" / "corpus" / "libcgal-demo" / "meshes"; }
 
 // What others say of a model: nothing, or that it bounds a solid.
 struct Candidate {

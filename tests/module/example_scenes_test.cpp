@@ -1,6 +1,7 @@
 // The scenes in modules/brittle/scene/examples: each says which effects it calls for, and breaks what it says, with nothing
 // lost and nothing flying off.
 #include "modules/brittle/scene/scene_file.h"
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_run.h"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr uint32_t kSecond = 60; // steps
 
-fs::path examplesFolder() { return fs::path(BRITTLE_SOURCE_DIR) / "modules" / "brittle" / "scene" / "examples"; }
+fs::path examplesFolder() { return support::sourceFolder() / "modules" / "brittle" / "scene" / "examples"; }
 
 std::vector<fs::path> examples() {
     std::vector<fs::path> files;
@@ -109,7 +110,7 @@ Story watch(brittle::SceneDescription scene, uint32_t steps) {
 }
 
 TEST(SmallExampleScenes, EachSaysWhichEffectsItCallsForAndWhy) {
-    const std::string readme = support::fileBytes(std::string(BRITTLE_SOURCE_DIR) + "/README.md");
+    const std::string readme = support::fileBytes((support::sourceFolder() / "README.md").string());
     ASSERT_GE(examples().size(), 6u);
     for (const fs::path& file : examples()) {
         SCOPED_TRACE(file.filename());

@@ -1,7 +1,8 @@
-// What breaks a body is what meets it first, of its own pieces, which lie behind each other, and of several bodies; where and when it does,
-// and only that.
+// What breaks a body is what meets it first, of its own pieces, which lie behind each other, and of several bodies; where and
+// when it does, and only that.
 #include "modules/brittle/scene/scene_file.h"
 #include "tests/module/breaking_scenes.h"
+#include "tests/support/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ TEST(FirstBlows, StepsDoNotDecideHowHardABodyOfManyPiecesIsHit) {
 }
 
 TEST(FirstBlows, StepsDoNotDecideHowHardAVaseFalls) {
-    const std::filesystem::path folder = std::filesystem::path(BRITTLE_SOURCE_DIR) / "modules/brittle/scene/examples";
+    const std::filesystem::path folder = support::sourceFolder() / "modules/brittle/scene/examples";
     auto scene = brittle::readScene(folder / "dropped_vase.toml");
     ASSERT_TRUE(scene);
     ASSERT_FALSE(scene->bodies[0].shape.file.empty());

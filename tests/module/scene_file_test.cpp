@@ -3,6 +3,7 @@
 #include "modules/brittle/scene/nearest_name.h"
 #include "modules/brittle/scene/scene_file.h"
 #include "modules/brittle/scene/scene_keys.h"
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -272,7 +273,7 @@ TEST(SmallSceneTable, EveryKeySaysWhatItIs) {
 }
 
 TEST(SmallSceneTable, IsTheReferenceInTheReadme) {
-    const std::string readme = support::fileBytes(std::string(BRITTLE_SOURCE_DIR) + "/modules/brittle/scene/README.md");
+    const std::string readme = support::fileBytes((support::sourceFolder() / "modules/brittle/scene/README.md").string());
     EXPECT_NE(readme.find(sceneKeyReference()), std::string::npos) << "put this into modules/brittle/scene/README.md:\n"
                                                                    << sceneKeyReference();
 }

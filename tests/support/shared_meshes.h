@@ -1,6 +1,7 @@
 // Models that are not part of the project: tests that need them skip, visibly, where they are not at hand.
 #pragma once
 
+#include "tests/support/folders.h"
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +13,7 @@ namespace support {
 // $BRITTLE_SHARED, or the folder `shared` beside the project.
 inline std::filesystem::path sharedFolder() {
     if (const char* given = std::getenv("BRITTLE_SHARED")) return given;
-    return std::filesystem::path(BRITTLE_SOURCE_DIR) / ".." / "shared";
+    return sourceFolder() / ".." / "shared";
 }
 
 inline std::filesystem::path sharedMesh(const std::string& name) { return sharedFolder() / "meshes" / name; }

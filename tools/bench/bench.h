@@ -42,6 +42,8 @@ struct BenchOptions {
     uint64_t seed = 1;
     uint32_t group_size = 0;     // lanes of a workgroup; 0: the usual number
     bool only_colliders = false; // of the shatters
+    bool peers = true;           // run other libraries as well, if the build has them
+    bool effects = true;         // of the first breaking case also with each set of effects
     bool kernels = false;        // time every kernel as well, in runs of their own
 };
 

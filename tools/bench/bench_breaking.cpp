@@ -195,7 +195,7 @@ Result<std::vector<BreakingRow>> benchBreaking(engine::Device& device, const Ben
 Result<std::vector<BreakingRow>> benchBreakingEffects(engine::Device& device, const BenchOptions& options,
                                                       const Progress& progress) {
     std::vector<BreakingRow> rows;
-    if (options.breaking_cases.empty()) return rows;
+    if (options.breaking_cases.empty() || !options.effects) return rows;
     const Effects kinds[] = {{"gravity", "contacts", "friction", "ccd"},
                              {"gravity", "contacts", "friction", "impact_fracture"},
                              {"gravity", "contacts", "friction", "impact_fracture", "refracture"},

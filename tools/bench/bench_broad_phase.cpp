@@ -136,7 +136,7 @@ Result<BroadPhaseRow> benchBoxes(engine::Device& device, uint32_t count, const B
     const std::vector<BoxOfSpace> heap = heapOf(count, options.seed);
     OurBoxes ours(device, count, lanesOf(options));
     if (auto prepared = ours.prepare(); !prepared) return prepared.error();
-    const auto kept = BulletBoxes::create();
+    const auto kept = options.peers ? BulletBoxes::create() : nullptr;
     if (kept) kept->build(heap);
     Samples warm_up, samples;
     for (uint32_t round = 0; round <= options.rounds; ++round) {

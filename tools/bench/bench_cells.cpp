@@ -37,14 +37,15 @@ struct Samples {
 };
 
 engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
-                                  const std::vector<Point>& sites, uint32_t rounds) {
+                                  const std::vector<Point>& sites, const BenchOptions& options) {
     Samples samples;
     if (auto warm_up = ourCells(fracture, cube, sites); !warm_up) return warm_up.error();
-    for (uint32_t round = 0; round < rounds; ++round) {
+    for (uint32_t round = 0; round < options.rounds; ++round) {
         const auto ms = settled([&] { return ourCells(fracture, cube, sites); });
         if (!ms) return ms.error();
         samples.cut.push_back(ms->cut);
         samples.link.push_back(ms->link);
+        if (!options.peers) continue;
         if (const auto peer = settled([&] { return voroppCells(sites); })) samples.voropp.push_back(peer->ms);
     }
     return samples;
@@ -61,7 +62,7 @@ engine::Result<std::vector<CellsRow>> benchCells(engine::Device& device, const B
     std::vector<CellsRow> rows;
     for (const uint32_t count : options.cell_counts) {
         progress("cells of " + std::to_string(count) + " sites");
-        const auto samples = alternate(**fracture, *cube, uniformSites(count, options.seed), options.rounds);
+        const auto samples = alternate(**fracture, *cube, uniformSites(count, options.seed), options);
         if (!samples) return samples.error();
         rows.push_back({count, median(samples->cut), median(samples->link), median(samples->voropp), {}});
         if (!options.kernels) continue;

@@ -21,7 +21,7 @@ struct Options {
     bench::BenchOptions bench;
     std::string device, output;
     bool cells_only = false, shatter_only = false, variants_only = false, colliders_only = false, dynamics_only = false;
-    bool breaking_only = false;
+    bool breaking_only = false, piles_only = false, no_peers = false, plain = false;
     std::vector<uint32_t> breaking_case; // one, in place of all
 };
 
@@ -166,10 +166,12 @@ engine::Result<void> checkBreakingCase(const std::vector<uint32_t>& numbers) {
 void keepAskedFor(Options& options) {
     bench::BenchOptions& bench = options.bench;
     bench.only_colliders = options.colliders_only;
+    bench.peers = !options.no_peers;
+    bench.effects = !options.plain;
     if (!options.breaking_case.empty())
         bench.breaking_cases = {{options.breaking_case[0], options.breaking_case[1], options.breaking_case[2]}};
     if (!options.cells_only && !options.shatter_only && !options.variants_only && !options.colliders_only &&
-        !options.dynamics_only && !options.breaking_only)
+        !options.dynamics_only && !options.breaking_only && !options.piles_only)
         return;
     if (!options.breaking_only) bench.breaking_cases.clear();
     if (!options.cells_only) bench.cell_counts.clear();
@@ -179,8 +181,8 @@ void keepAskedFor(Options& options) {
         bench.variant_cell_counts.clear();
         bench.variant_shatter_counts.clear();
     }
+    if (!options.dynamics_only && !options.piles_only) bench.pile_counts.clear();
     if (!options.dynamics_only) {
-        bench.pile_counts.clear();
         bench.box_counts.clear();
         bench.pair_counts.clear();
     }
@@ -206,6 +208,7 @@ constexpr const char* kFooter = "Voro++, CGAL and Bullet run alternately with us
 // Rigid bodies: what falls, what meets, what touches.
 void addDynamicsOptions(CLI::App& command, Options& options) {
     command.add_flag("--dynamics", options.dynamics_only, "only rigid bodies: piles, the broad and the narrow phase");
+    command.add_flag("--piles", options.piles_only, "only piles");
     command.add_option("--pile-counts", options.bench.pile_counts, "numbers of hulls that fall into a pit; 5000 take minutes")
         ->capture_default_str()
         ->check(CLI::Range(1u, 100'000u));
@@ -221,6 +224,7 @@ void addDynamicsOptions(CLI::App& command, Options& options) {
 }
 
 void addBreakingOptions(CLI::App& command, Options& options) {
+    command.add_flag("--plain", options.plain, "leave out what each set of effects costs where bodies break");
     command.add_flag("--breaking", options.breaking_only,
                      "only frames in which bodies break, and what each effect costs there");
     command
@@ -268,6 +272,9 @@ void addBench(CLI::App& app, int& exit_code) {
         command->get_option("--breaking")->excludes(other);
     }
     command->get_option("--breaking")->excludes(command->get_option("--dynamics"));
+    for (const char* other : {"--cells", "--shatter", "--variants", "--colliders", "--dynamics", "--breaking"})
+        command->get_option("--piles")->excludes(command->get_option(other));
+    command->add_flag("--no-peers", options->no_peers, "leave out Voro++, CGAL and Bullet");
     command->add_flag("--kernels", options->bench.kernels, "also the time of every kernel, the dearest first");
     addDeviceOptions(*command, options->device, options->bench.group_size);
     command->callback([options, &exit_code] { exit_code = runBench(*options); });

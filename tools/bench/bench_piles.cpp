@@ -207,7 +207,8 @@ engine::Result<PileRow> benchPile(engine::Device& device, uint32_t count, const 
     if (!settings) return settings.error();
     auto world = brittle::World::create(device, pile->contents, *settings, brittle::budgetOf(pile->scene, options.group_size));
     if (!world) return world.error();
-    std::vector<Peer> peers = peersOf(pile->contents, settings->gravity);
+    std::vector<Peer> peers;
+    if (options.peers) peers = peersOf(pile->contents, settings->gravity);
     PileRow row;
     row.bodies = count;
     progress("pile of " + std::to_string(count) + ": the first step compiles");

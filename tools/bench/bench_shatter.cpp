@@ -51,7 +51,7 @@ engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::Pr
     if (auto done = runOurs(fracture, model, sites, warm_up); !done) return done.error();
     for (uint32_t round = 0; round < options.rounds; ++round) {
         if (auto done = runOurs(fracture, model, sites, samples); !done) return done.error();
-        if (!with_peer || count > options.peer_shatter_limit) continue;
+        if (!with_peer || !options.peers || count > options.peer_shatter_limit) continue;
         if (const auto peer = cgalShatter(options.sphere_level, count, options.seed)) samples.cgal.push_back(peer->ms);
     }
     return samples;

@@ -19,10 +19,11 @@ void addDoctor(CLI::App& app, int& exit_code);
 void addScenes(CLI::App& app, int& exit_code);
 void addPlan(CLI::App& app, int& exit_code);
 void addSimulate(CLI::App& app, int& exit_code);
-void addBench(CLI::App& app, int& exit_code);    // in tools/bench
-void addAccuracy(CLI::App& app, int& exit_code); // in tools/accuracy
-void addHard(CLI::App& app, int& exit_code);     // in tools/hard
-void addCompare(CLI::App& app, int& exit_code);  // in tools/compare
+void addBench(CLI::App& app, int& exit_code);       // in tools/bench
+void addAccuracy(CLI::App& app, int& exit_code);    // in tools/accuracy
+void addHard(CLI::App& app, int& exit_code);        // in tools/hard
+void addCompare(CLI::App& app, int& exit_code);     // in tools/compare
+void addCheckDevice(CLI::App& app, int& exit_code); // in tools/device_check
 
 // A check of a name that may not be empty.
 std::string someText(const std::string& text);

@@ -8,8 +8,9 @@
 
 namespace {
 
-constexpr cli::AddCommand kCommands[] = {cli::addShatter, cli::addDevices, cli::addDoctor,   cli::addScenes, cli::addSimulate,
-                                         cli::addPlan,    cli::addCompare, cli::addAccuracy, cli::addHard,   cli::addBench};
+constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli::addDoctor,     cli::addScenes,
+                                         cli::addSimulate, cli::addPlan,    cli::addCompare,    cli::addAccuracy,
+                                         cli::addHard,     cli::addBench,   cli::addCheckDevice};
 
 constexpr const char* kFooter =
     "Examples:\n"

@@ -1,0 +1,233 @@
+// brittle check-device: its options, and the parts of a check in order.
+#include "engine/device.h"
+#include "tools/accuracy/version.h"
+#include "tools/brittle/command.h"
+#include "tools/brittle/interrupt.h"
+#include "tools/brittle/progress.h"
+#include "tools/device_check/check_parts.h"
+#include "tools/device_check/device_facts.h"
+#include "tools/device_check/device_work.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+using device_check::Clock;
+using device_check::Json;
+using device_check::Kit;
+using device_check::Part;
+using device_check::Results;
+
+struct Options {
+    std::string kit, output, device, work, expect;
+    std::string loader, library_path; // how the machine that made the kit loads programs
+    std::vector<std::string> parts;
+    double scale = 1;   // of all time limits
+    double seconds = 1; // of each scene
+};
+
+std::filesystem::path kitFolder(const Options& options) {
+    if (!options.kit.empty()) return options.kit;
+    return std::filesystem::path(device_check::ownPath()).parent_path().parent_path();
+}
+
+std::vector<std::string> launcherOf(const Options& options) {
+    if (options.loader.empty()) return {};
+    return {options.loader, "--library-path", options.library_path};
+}
+
+// A process of its own does this, for one part.
+int runWork(const Options& options) {
+    auto device = engine::Device::create({.select = options.device, .share_pipelines = true});
+    if (!device) return fail(device.error());
+    const Kit kit(kitFolder(options), {}, options.device);
+    if (options.work == "facts") std::printf("%s\n", device_check::factsOf(**device).dump().c_str());
+    if (options.work == "models") device_check::fingerprintModels(**device, kit);
+    if (options.work == "scenes") device_check::simulateScenes(**device, kit, options.seconds);
+    if (options.work == "idle") device_check::measureIdleSteps(**device, kit);
+    return kOk;
+}
+
+Clock::time_point inSeconds(double seconds) {
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// One line for each part. A reader that has gone away is no reason to stop: the files are what counts.
+void tell(const Part& part, const Json& outcome) {
+    static bool told = false;
+    const std::string reason = outcome.value("reason", "");
+    const int wrote = std::printf("%-42s %-8s %6.1f s%s\n", part.title, outcome["status"].get<std::string>().c_str(),
+                                  outcome["seconds"].get<double>(), reason.empty() ? "" : ("  " + reason).c_str());
+    if (wrote >= 0 && std::fflush(stdout) == 0) return;
+    if (!told) std::fprintf(stderr, "brittle: nobody reads this output any more; the check goes on and writes its results\n");
+    told = true;
+}
+
+bool isWanted(const Options& options, const Part& part) {
+    return options.parts.empty() || std::ranges::find(options.parts, part.name) != options.parts.end();
+}
+
+Json aboutProgram() { return {{"version", BRITTLE_VERSION}, {"commit", BRITTLE_COMMIT}, {"compiler", BRITTLE_COMPILER}}; }
+
+constexpr double kWholeCheck = 350, kWorthGoingOn = 10; // s
+
+// The parts of one check, in order.
+class Check {
+public:
+    Check(const Options& options, std::filesystem::path scratch)
+        : options_(options), scratch_(std::move(scratch)),
+          kit_(kitFolder(options), launcherOf(options), options.device, scratch_), expected_(kit_.expected()),
+          until_(inSeconds(kWholeCheck * options.scale)) {}
+
+    // The part about the device always runs: without a device nothing else can.
+    int run(Results& results) {
+        const auto parts = device_check::checkParts();
+        if (const Json first = runPart(parts.front(), results); !first.contains("facts"))
+            return fail({engine::ErrorCode::Device, "no device to check: " + first.value("reason", "it said nothing")});
+        for (const Part& part : parts.subspan(1))
+            if (isWanted(options_, part)) runPart(part, results);
+        for (const Part& part : parts)
+            if (part.goes_on && isWanted(options_, part)) goOn(part, results);
+        return hasFailed(results) ? kInternalError : kOk;
+    }
+
+private:
+    Json runPart(const Part& part, Results& results) {
+        showProgress(part.title);
+        const auto start = Clock::now();
+        const auto until = std::min(inSeconds(part.limit_s * options_.scale), until_);
+        Json outcome = part.run({kit_, expected_, facts_, scratch_, test_runs_, until});
+        outcome["title"] = part.title;
+        outcome["seconds"] = secondsSince(start);
+        outcome["limit_s"] = part.limit_s * options_.scale;
+        if (outcome.contains("facts")) facts_ = outcome["facts"];
+        clearProgress();
+        tell(part, outcome);
+        results.add(part.name, outcome);
+        return outcome;
+    }
+
+    // What other parts have left of the time goes to tests that did not run in theirs.
+    void goOn(const Part& part, Results& results) {
+        const double left = std::chrono::duration<double>(until_ - Clock::now()).count();
+        const Json before = results.json()["parts"].value(part.name, Json());
+        if (left < kWorthGoingOn * options_.scale || before.is_null() || before["status"] == "passed") return;
+        Part more = part;
+        more.limit_s = left / options_.scale;
+        Json outcome = runPart(more, results);
+        outcome["seconds"] = outcome["seconds"].get<double>() + before["seconds"].get<double>();
+        outcome["limit_s"] = outcome["limit_s"].get<double>() + before["limit_s"].get<double>();
+        results.add(part.name, outcome);
+    }
+
+    static bool hasFailed(Results& results) {
+        return std::ranges::any_of(results.json()["parts"], [](const Json& part) { return part["status"] == "failed"; });
+    }
+
+    const Options& options_;
+    std::filesystem::path scratch_;
+    Kit kit_;
+    Json expected_, facts_;
+    Clock::time_point until_;
+    device_check::TestRuns test_runs_;
+};
+
+engine::Result<std::filesystem::path> scratchIn(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    std::string name = (folder / "scratch-XXXXXX").string();
+    if (!failed && mkdtemp(name.data()) != nullptr) return std::filesystem::path(name);
+    return engine::Error{engine::ErrorCode::BadInput, folder.string() + ": cannot be written to; give another folder with -o"};
+}
+
+int runCheck(const Options& options) {
+    std::signal(SIGPIPE, SIG_IGN);
+    const std::filesystem::path folder = options.output.empty() ? kitFolder(options) : std::filesystem::path(options.output);
+    const auto scratch = scratchIn(folder);
+    if (!scratch) return fail(scratch.error());
+    Results results(folder);
+    results.json() = {{"format", 1}, {"brittle", aboutProgram()}, {"parts", Json::object()}};
+    const int code = Check(options, *scratch).run(results);
+    if (code != kDeviceError)
+        std::printf("results in %s%s\n", (results.folder() / "results.html").c_str(),
+                    results.wasWritten() ? "" : ", as far as they could be written");
+    std::error_code ignored;
+    std::filesystem::remove_all(*scratch, ignored);
+    return code;
+}
+
+// What other devices are held against.
+int writeExpected(const Options& options) {
+    const Kit kit(kitFolder(options), launcherOf(options), options.device);
+    Json expected;
+    for (const char* work : {"facts", "models", "scenes"}) {
+        showProgress(std::string("expected ") + work);
+        Json lines = Json::array();
+        const auto end = runChild(
+            kit.command("brittle", {"check-device", "--work", work, "--kit", kitFolder(options).string()}, inSeconds(3600)),
+            [&](std::string_view line) { lines.push_back(Json::parse(line, nullptr, false)); });
+        clearProgress();
+        if (!end.isGood()) return fail({engine::ErrorCode::Internal, std::string(work) + ": " + end.reason});
+        expected[work] =
+            std::string(work) == "facts" ? Json{{"name", lines[0]["name"]}, {"driver", lines[0]["driver"]}} : lines;
+    }
+    auto file = createOutput(options.expect);
+    if (!file) return fail(file.error());
+    if (auto written = file->write(expected.dump(1) + "\n"); !written) return fail(written.error());
+    if (auto committed = file->commit(); !committed) return fail(committed.error());
+    return kOk;
+}
+
+std::vector<std::string> partNames() {
+    std::vector<std::string> names;
+    for (const Part& part : device_check::checkParts())
+        names.emplace_back(part.name);
+    return names;
+}
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  brittle check-device -o out/check\n"
+    "  brittle check-device --parts models scenes -o out/check\n"
+    "\n"
+    "Writes results.json and results.html after each part. tools/gpu_check.sh packs a folder with all that a check needs;\n"
+    "there, run.sh calls this. Exit codes: 0 nothing failed, 1 something did, 4 no device.";
+
+} // namespace
+
+void addCheckDevice(CLI::App& app, int& exit_code) {
+    CLI::App* command =
+        app.add_subcommand("check-device", "Check a device: facts, tests, fragments, scenes, times; at most six minutes.");
+    command->footer(kFooter);
+    auto options = std::make_shared<Options>();
+    command->add_option("-o,--output", options->output, "the folder for the results; else the kit's")
+        ->take_last()
+        ->check(someText);
+    command->add_option("--kit", options->kit, "the folder with programs, meshes, scenes; else the one above this program's")
+        ->check(someText);
+    command->add_option("--device", options->device,
+                        "a part of the name, or the index; else $BRITTLE_DEVICE, else the fastest");
+    command->add_option("--parts", options->parts, "only these parts, and the facts of the device")
+        ->check(CLI::IsMember(partNames()));
+    inRange(command->add_option("--limit-scale", options->scale, "multiplies the time limits of all parts"), 0.01, 100)
+        ->capture_default_str();
+    command->add_option("--loader", options->loader, "the dynamic loader to run all programs by")->check(someText);
+    command->add_option("--library-path", options->library_path, "where that loader looks for libraries")->check(someText);
+    command
+        ->add_option("--write-expected", options->expect,
+                     "write what this device gives to this file, for others to be held against")
+        ->check(someText);
+    command->add_option("--work", options->work)->group("")->check(CLI::IsMember({"facts", "models", "scenes", "idle"}));
+    command->callback([options, &exit_code] {
+        exit_code = !options->work.empty()     ? runWork(*options)
+                    : !options->expect.empty() ? writeExpected(*options)
+                                               : runCheck(*options);
+    });
+}
+
+} // namespace cli

@@ -1,0 +1,18 @@
+# `brittle check-device`: checks a device by the project's own tests, expected fragments, scenes and times. Its page lies in the
+# program. How other programs are run and followed is a library of its own, for tests.
+set(check_dir ${CMAKE_CURRENT_LIST_DIR})
+set(check_running child_process kit test_run)
+list(TRANSFORM check_running PREPEND ${check_dir}/)
+list(TRANSFORM check_running APPEND .cpp)
+add_library(brittle_device_check STATIC ${check_running})
+target_link_libraries(brittle_device_check PUBLIC brittle_options nlohmann_json::nlohmann_json Threads::Threads)
+if(TARGET brittle)
+    set(check_page ${check_dir}/page/results.html)
+    set(check_embedded ${CMAKE_CURRENT_BINARY_DIR}/device_check_page.S)
+    configure_file(${check_dir}/page/embedded_page.S.in ${check_embedded} @ONLY)
+    set_source_files_properties(${check_embedded} PROPERTIES OBJECT_DEPENDS ${check_page})
+    file(GLOB check_sources CONFIGURE_DEPENDS ${check_dir}/*.cpp)
+    list(REMOVE_ITEM check_sources ${check_running})
+    target_sources(brittle PRIVATE ${check_sources} ${check_embedded})
+    target_link_libraries(brittle PRIVATE brittle_device_check)
+endif()

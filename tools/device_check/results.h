@@ -1,0 +1,34 @@
+// What a check found, and the two files it is kept in: results.json for programs, results.html for people.
+#pragma once
+
+#include "tools/device_check/kit.h"
+
+#include <filesystem>
+#include <string>
+
+namespace device_check {
+
+class Results {
+public:
+    explicit Results(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    Json& json() { return json_; }
+    // Adds a part's outcome, or replaces it if there is one of that name, and writes both files.
+    void add(const std::string& name, const Json& outcome);
+    // Writes both files beside their places and moves them there, so that an interrupted write leaves the earlier ones whole.
+    // If a file cannot be written, one line on standard error says why, once for each file; the check goes on.
+    void write();
+    bool wasWritten() const { return written_; }
+    const std::filesystem::path& folder() const { return folder_; }
+
+private:
+    std::filesystem::path folder_;
+    Json json_ = Json::object();
+    bool written_ = false;
+    bool told_json_ = false, told_page_ = false;
+};
+
+// One self-contained page with tables and plots of these results.
+std::string pageOf(const Json& results);
+
+} // namespace device_check

@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# tools/gpu_check.sh [-o DIR] [--no-build] [--small]: packs a folder that checks Brittle on any x86-64 Linux machine with a Vulkan driver.
+# The machine needs nothing else: no packages, no compiler, no network, no root. DIR is out/gpu-check if not given.
+#
+# DIR/run.sh unpacks programs.tar.xz beside itself and runs `brittle check-device`. See modules/brittle/docs/checking_a_gpu.md.
+# --small packs a part of the models and scenes, and no validation layer: for the test of the folder itself.
+# The expected fragments and scene states come from this machine's device, which should be Mesa's lavapipe.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+usage() {
+  echo "usage: tools/gpu_check.sh [-o DIR] [--no-build] [--small]" >&2
+  exit 2
+}
+
+out=out/gpu-check build=true small=false
+while [ $# -gt 0 ]; do
+  case $1 in
+    -o) [ $# -ge 2 ] || usage; out=$2; shift 2 ;;
+    --no-build) build=false; shift ;;
+    --small) small=true; shift ;;
+    *) usage ;;
+  esac
+done
+
+bin=build/release/bin
+tests=(brittle_tests_engine brittle_tests_kernel brittle_tests_module brittle_tests_abi)
+if $build; then
+  tools/setup.sh
+  tools/build.sh release brittle brittle_library "${tests[@]}"
+fi
+for program in brittle "${tests[@]}"; do
+  [ -x "$bin/$program" ] || { echo "gpu_check: $bin/$program is missing; run without --no-build" >&2; exit 1; }
+done
+
+kit=$(mktemp -d)
+trap 'rm -rf "$kit"' EXIT
+mkdir -p "$kit"/{bin,lib,cxx,system,vulkan,meshes,modules,source}
+
+say() { echo "gpu_check: $*" >&2; }
+
+# The shared libraries that these programs load, one path per line.
+libraries_of() {
+  local file
+  for file in "$@"; do ldd "$file"; done | awk '/=> \//{print $3} /^\t\/lib.*ld-linux/{print $1}' | sort -u
+}
+
+# Copies a library to a folder of the kit under the name that programs ask for.
+add_library() { cp -L "$1" "$kit/$2/$(basename "$1")"; }
+
+pack_programs() {
+  say "programs"
+  local program
+  for program in brittle "${tests[@]}"; do strip -o "$kit/bin/$program" "$bin/$program"; done
+  cp build/release/modules/*.so "$kit/modules/" 2>/dev/null || true
+  local library
+  for library in $(libraries_of "$bin/brittle" "${tests[@]/#/$bin/}"); do
+    case $(basename "$library") in
+      ld-linux* | libc.so* | libm.so* | libdl.so* | librt.so* | libpthread.so* | libresolv.so*) add_library "$library" system ;;
+      libstdc++* | libgcc_s*) add_library "$library" cxx ;;
+      *) add_library "$library" lib ;;
+    esac
+  done
+  # Drivers load these by name; their symbols have moved to libc.
+  for library in libdl.so.2 librt.so.1 libpthread.so.0; do add_library "/lib/x86_64-linux-gnu/$library" system; done
+  strip "$kit"/lib/* "$kit"/cxx/*
+}
+
+# The files of Debian packages, without installing them.
+pack_vulkan() {
+  say "the Vulkan loader, and the libraries that drivers expect on a desktop"
+  local folder=$kit/debs
+  mkdir -p "$folder/files"
+  (cd "$folder" && apt-get download -qq libvulkan1 libegl1 libglvnd0 libglx0 libx11-6 libxext6 libxcb1 libxau6 libxdmcp6 \
+    libbsd0 libmd0 busybox-static 2>/dev/null) || { say "the packages cannot be downloaded; run apt-get update"; exit 1; }
+  local package
+  for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/files"; done
+  find "$folder/files" -name '*.so.*' -exec cp -P {} "$kit/vulkan/" \;
+  cp "$folder/files/bin/busybox" "$kit/busybox"
+  rm -rf "$folder"
+}
+
+pack_layer() {
+  if $small; then return 0; fi
+  local layer=/usr/lib/x86_64-linux-gnu/libVkLayer_khronos_validation.so
+  local manifest=/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json
+  [ -f "$layer" ] && [ -f "$manifest" ] || return 0
+  say "the validation layer"
+  mkdir -p "$kit/layer"
+  strip -o "$kit/layer/libVkLayer_khronos_validation.so" "$layer"
+  sed 's|"library_path": *"[^"]*"|"library_path": "./libVkLayer_khronos_validation.so"|' "$manifest" >"$kit/layer/VkLayer_khronos_validation.json"
+}
+
+# What tests and scenes read, laid out as in the source tree.
+pack_sources() {
+  say "scenes and meshes"
+  local path
+  for path in README.md modules/brittle/scene/README.md modules/brittle/scene/examples; do
+    mkdir -p "$kit/source/$(dirname "$path")"
+    cp -r "$path" "$kit/source/$(dirname "$path")/"
+  done
+  if $small; then
+    grep -E '^(ring|cube|bumpy|gearwheel) ' tests/device/meshes.txt >"$kit/meshes.txt"
+    printf 'stack_10\nwindow_pane\n' >"$kit/scenes.txt"
+  else
+    cp tests/device/meshes.txt "$kit/"
+  fi
+  local name source
+  while read -r name source; do
+    case $name in '' | '#'*) continue ;; esac
+    case $source in builtin:*) continue ;; esac
+    if [ -f "../shared/meshes/$source" ]; then cp "../shared/meshes/$source" "$kit/meshes/"; else say "skipped $source: the folder of meshes is not here"; fi
+  done <"$kit/meshes.txt"
+}
+
+write_expected() {
+  say "expected fragments and scene states, on this machine's device"
+  "$bin/brittle" check-device --kit "$kit" --write-expected "$kit/expected.json"
+  local scene
+  mkdir -p "$kit/recordings"
+  for scene in stack_10 card_house hull_pile_100; do
+    "$bin/brittle" compare --device 0 "$scene" --seconds 0.5 --record "$kit/recordings/$scene.motion" --passes-of 1 >/dev/null
+  done
+}
+
+write_folder() {
+  say "packing"
+  "$kit"/system/ld-linux-x86-64.so.2 --version | sed -n '1s/.* \([0-9.]*[0-9]\)\.*$/\1/p' >"$kit/system/version"
+  rm -rf "$out"
+  mkdir -p "$out"
+  mv "$kit/busybox" "$out/busybox"
+  git describe --always --dirty >"$kit/commit" 2>/dev/null || echo unknown >"$kit/commit"
+  tar -C "$kit" --owner=0 --group=0 --sort=name -cf - . | xz "-$($small && echo 1 || echo 6)" -T2 >"$out/programs.tar.xz"
+  install -m 755 tools/device_check/run.sh "$out/run.sh"
+  cp tools/device_check/kit_readme.txt "$out/README.txt"
+  du -sh "$out"
+}
+
+pack_programs
+pack_vulkan
+pack_layer
+pack_sources
+write_expected
+write_folder
