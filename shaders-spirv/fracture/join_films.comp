@@ -37,6 +37,15 @@ shared uint lane_pick[GROUP_SIZE];
 vec3 cornerOf(uint id) { return positions[id].xyz * unit; }
 vec3 siteOf(uint s) { return vec3(inTile(sites[s].xyz) - ivec3(1 << 23)) * step_size; }
 
+// Four times the squared area. Additions and products alone, which Vulkan rounds alike on every device: caps of equal area are
+// common, and which of them is the larger must not depend on a square root.
+float squaredAreaOf(uvec4 piece) {
+    precise vec3 a = cornerOf(piece.x), u = cornerOf(piece.y) - a, v = cornerOf(piece.z) - a;
+    precise vec3 normal = vec3(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+    precise float square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
+    return square;
+}
+
 // The fragment behind one side of a cap, NO_INDEX where its fate was open when the round began.
 uint hostBehind(uint side) {
     uint mate = components[pieceBehind(side, counts[COUNT_MESH_TRIANGLES] + counts[COUNT_FAN_TRIANGLES])];
@@ -54,8 +63,7 @@ void largestCap(uint lane, uint first, uint last, uint tried[MOST_HOSTS], uint t
         bool cap = (sources[t] & INNER_BIT) != 0u;
         uint host = cap ? hostBehind(t) : NO_INDEX;
         for (uint s = 0u; s < MOST_HOSTS; s++) host = s < tries && tried[s] == host ? NO_INDEX : host;
-        vec3 a = cornerOf(pieces[t].x);
-        float area = host != NO_INDEX ? length(cross(cornerOf(pieces[t].y) - a, cornerOf(pieces[t].z) - a)) : -1.0;
+        float area = host != NO_INDEX ? squaredAreaOf(pieces[t]) : -1.0;
         bool better = host != NO_INDEX && (area > largest || (area == largest && host < pick));
         largest = better ? area : largest;
         pick = better ? host : pick;

@@ -31,6 +31,8 @@ protected:
     static void SetUpTestSuite() {
         fs::remove_all(folder());
         fs::create_directories(folder());
+        can_mount_ = runShell((kSource / "tests/device/kit_in_chroot.sh").string() + " --can-run", log()) != kCannot;
+        if (!can_mount_) return;
         packed_ =
             runShell((kSource / "tools/gpu_check.sh").string() + " --no-build --small -o '" + kit().string() + "'", log()) == 0;
     }

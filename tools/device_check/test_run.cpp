@@ -116,6 +116,7 @@ void listTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
         run.problem = "the tests of " + options.program + " cannot be listed: " + listed.reason;
         return;
     }
+    run.problem.clear();
     for (std::string& name : namesIn(lines))
         run.tests.push_back({.name = std::move(name)});
 }
