@@ -66,18 +66,14 @@ pack_programs() {
   strip "$kit"/lib/* "$kit"/cxx/*
 }
 
-# The files of Debian packages, without installing them.
+# The files of installed packages: drivers made for desktops load X11 and GLVND, which servers often lack.
 pack_vulkan() {
   say "the Vulkan loader, and the libraries that drivers expect on a desktop"
-  local folder=$kit/debs
-  mkdir -p "$folder/files"
-  (cd "$folder" && apt-get download -qq libvulkan1 libegl1 libglvnd0 libglx0 libx11-6 libxext6 libxcb1 libxau6 libxdmcp6 \
-    libbsd0 libmd0 busybox-static 2>/dev/null) || { say "the packages cannot be downloaded; run apt-get update"; exit 1; }
-  local package
-  for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/files"; done
-  find "$folder/files" -name '*.so.*' -exec cp -P {} "$kit/vulkan/" \;
-  cp "$folder/files/bin/busybox" "$kit/busybox"
-  rm -rf "$folder"
+  local package library
+  for package in libvulkan1 libegl1 libglvnd0 libglx0 libx11-6 libxext6 libxcb1 libxau6 libxdmcp6 libbsd0 libmd0; do
+    for library in $(dpkg -L "$package" | grep '/lib/.*\.so\.'); do cp -P "$library" "$kit/vulkan/"; done
+  done
+  cp /bin/busybox "$kit/busybox"
 }
 
 pack_layer() {

@@ -20,6 +20,8 @@ packages=(
   chromium fonts-dejavu-core
   # the plugin for Godot is drawn by its test on a screen that nobody sees
   xvfb xauth
+  # the folder of tools/gpu_check.sh: a shell for machines without one, and what drivers expect on a desktop
+  busybox-static libegl1 libglx0 libxext6
   # tests, and the peers of the bench
   libgtest-dev librapidcheck-dev clang clang-tidy libclang-rt-14-dev libbullet-dev libcgal-dev libgmp-dev libmpfr-dev
   voro++-dev

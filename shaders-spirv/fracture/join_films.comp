@@ -29,6 +29,7 @@ layout(push_constant) uniform Push {
     float step_size; // of the grid, in box units
 };
 #include "lib/piece_behind.glsl"
+#include "lib/rounded_alike.glsl"
 #include "lib/tile.glsl"
 
 shared float lane_area[GROUP_SIZE];
@@ -37,13 +38,11 @@ shared uint lane_pick[GROUP_SIZE];
 vec3 cornerOf(uint id) { return positions[id].xyz * unit; }
 vec3 siteOf(uint s) { return vec3(inTile(sites[s].xyz) - ivec3(1 << 23)) * step_size; }
 
-// Four times the squared area. Additions and products alone, which Vulkan rounds alike on every device: caps of equal area are
-// common, and which of them is the larger must not depend on a square root.
+// Four times the squared area. Caps of equal area are common, and which is the larger must not depend on a square root.
 float squaredAreaOf(uvec4 piece) {
     precise vec3 a = cornerOf(piece.x), u = cornerOf(piece.y) - a, v = cornerOf(piece.z) - a;
-    precise vec3 normal = vec3(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
-    precise float square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
-    return square;
+    vec3 normal = alikeCross(u, v);
+    return alikeDot(normal, normal);
 }
 
 // The fragment behind one side of a cap, NO_INDEX where its fate was open when the round began.

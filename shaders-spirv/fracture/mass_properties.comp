@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/rounded_alike.glsl"
 #include "lib/sum.glsl"
 #include "shared/fragment_record.h"
 
@@ -41,8 +42,8 @@ void main() {
         uint t = order[k];
         uvec4 piece = pieces[t];
         precise vec3 a = cornerOf(piece.x) - origin, b = cornerOf(piece.y) - origin, d = cornerOf(piece.z) - origin;
-        precise vec3 normal = cross(b - a, d - a); // of short edges: little to round
-        precise float volume = dot(a, normal) / 6.0, area = 0.5 * length(normal);
+        precise vec3 u = b - a, v = d - a, normal = alikeCross(u, v); // of short edges: little to round
+        precise float volume = alikeDot(a, normal) / 6.0, area = 0.5 * length(normal);
         float outer_area = (sources[t] & INNER_BIT) == 0u ? area : 0.0, perimeter = length(b - a) + length(d - b) + length(a - d);
         addTo(sum, lost_sum, vec4(volume, area, outer_area, perimeter));
         addTo(moment, lost_moment, vec4(0.25 * volume * (a + b + d), 0.0));

@@ -7,6 +7,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
+#include "lib/rounded_alike.glsl"
 #include "shared/fragment_record.h"
 
 #define MOST_AROUND 128
@@ -79,8 +80,9 @@ vec3 middleOf(uint lane, uint cavity) {
     uint pick = component_start[cavity], last = component_start[cavity + 1u];
     for (uint k = pick + lane; k < last; k += GROUP_SIZE) {
         uvec4 piece = pieces[order[k]];
-        vec3 a = cornerOf(piece.x);
-        precise float area = length(cross(cornerOf(piece.y) - a, cornerOf(piece.z) - a));
+        precise vec3 a = cornerOf(piece.x), u = cornerOf(piece.y) - a, v = cornerOf(piece.z) - a;
+        vec3 normal = alikeCross(u, v);
+        float area = alikeDot(normal, normal); // four times its square
         pick = area > largest ? k : pick;
         largest = max(area, largest);
     }

@@ -93,6 +93,13 @@ TEST(ChildProcess, IsEndedAtItsTimeLimitWithItsChildren) {
     EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
 }
 
+TEST(ChildProcess, HasTheLastSettingOfAName) {
+    const ChildEnd end = device_check::runChild(
+        {{"/bin/sh", "-c", "echo $HOME"}, {"HOME=/one", "HOME=/two"}, Clock::now() + std::chrono::seconds(10)},
+        [](std::string_view line) { EXPECT_EQ(line, "/two"); });
+    EXPECT_TRUE(end.isGood()) << end.reason;
+}
+
 TEST(ChildProcess, TellsItsExitCodeAndTheLastLineOfItsErrors) {
     const ChildEnd end = device_check::runChild(
         {{"/bin/sh", "-c", "echo one >&2; echo two >&2; printf rest; exit 3"}, {}, Clock::now() + std::chrono::seconds(10)},

@@ -50,13 +50,15 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
     return pointers;
 }
 
-// A setting replaces an inherited one of the same name.
+// A setting replaces an inherited one of the same name, and an earlier setting.
 std::vector<std::string> environmentWith(const std::vector<std::string>& settings) {
-    std::vector<std::string> all = settings;
-    for (char** inherited = environ; *inherited != nullptr; ++inherited) {
-        const std::string name(*inherited, std::strcspn(*inherited, "=") + 1);
-        if (std::ranges::none_of(settings, [&](const std::string& s) { return s.starts_with(name); }))
-            all.emplace_back(*inherited);
+    std::vector<std::string> all;
+    for (char** inherited = environ; *inherited != nullptr; ++inherited)
+        all.emplace_back(*inherited);
+    for (const std::string& setting : settings) {
+        const std::string name = setting.substr(0, setting.find('=') + 1);
+        std::erase_if(all, [&](const std::string& known) { return known.starts_with(name); });
+        all.push_back(setting);
     }
     return all;
 }
