@@ -87,7 +87,7 @@ pack_layer() {
   sed 's|"library_path": *"[^"]*"|"library_path": "./libVkLayer_khronos_validation.so"|' "$manifest" >"$kit/layer/VkLayer_khronos_validation.json"
 }
 
-# What tests and scenes read, laid out as in the source tree.
+# Copies the files that tests and scenes read, laid out as in the source tree.
 pack_sources() {
   say "scenes and meshes"
   local path

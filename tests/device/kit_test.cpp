@@ -97,7 +97,7 @@ TEST_F(Kit, GivesInAnEmptyRootWhatThisMachineGives) {
     EXPECT_GT(support::fileBytes((folder() / "root/kit/results.html").string()).size(), 10'000u);
 }
 
-// A second run finds what the first one unpacked, and its time limit: tests that did not run are told, and none fails.
+// A second run finds what the first one unpacked, and its time limit: tests that did not run are counted, and no test fails.
 TEST_F(Kit, RunsAgainAndStopsAtItsTimeLimit) {
     const int code = run("-o /kit --parts kernels --limit-scale 0.05");
     EXPECT_EQ(code, 0) << said();
@@ -117,7 +117,7 @@ TEST_F(Kit, GoesOnWithoutAReaderAndKeepsItsResults) {
 TEST_F(Kit, TellsThatADiskIsFullAndKeepsWhatWasWritten) {
     fs::remove_all(folder() / "root/kept");
     run("-o /kit/results --parts models", "KIT_RESULTS_SIZE=24k");
-    EXPECT_NE(said().find("what was written before stays"), std::string::npos) << said();
+    EXPECT_NE(said().find("the earlier file stays"), std::string::npos) << said();
     EXPECT_TRUE(results(folder() / "root/kept/results.json")["parts"].contains("device")) << said();
 }
 

@@ -59,7 +59,7 @@ TEST_F(TestRuns, AFindingHasTheWordsOfTheTest) {
 }
 
 TEST_F(TestRuns, WhatTheTimeDoesNotAllowHasNotRunAndCanRunLater) {
-    TestRun result = run(std::chrono::milliseconds(700), std::chrono::seconds(0), 1);
+    TestRun result = run(std::chrono::milliseconds(4000), std::chrono::seconds(0), 1);
     EXPECT_EQ(endOf(result, "Fake.Hangs"), TestEnd::NotRun);
     EXPECT_EQ(endOf(result, "Fake.Fails"), TestEnd::NotRun);
     EXPECT_EQ(endOf(result, "Fake.Passes"), TestEnd::Passed);
@@ -86,11 +86,11 @@ TEST(ChildProcess, IsEndedAtItsTimeLimitWithItsChildren) {
     const auto start = Clock::now();
     std::vector<std::string> lines;
     const ChildEnd end =
-        device_check::runChild({{"/bin/sh", "-c", "echo begun; sleep 60 & wait"}, {}, start + std::chrono::milliseconds(500)},
+        device_check::runChild({{"/bin/sh", "-c", "echo begun; sleep 60 & wait"}, {}, start + std::chrono::seconds(3)},
                                [&](std::string_view line) { lines.emplace_back(line); });
     EXPECT_EQ(end.kind, ChildEnd::Kind::OutOfTime);
     EXPECT_EQ(lines, std::vector<std::string>{"begun"});
-    EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
+    EXPECT_LT(Clock::now() - start, std::chrono::seconds(15));
 }
 
 TEST(ChildProcess, HasTheLastSettingOfAName) {

@@ -25,6 +25,7 @@ struct Options {
     std::string kit, output, device, work, expect;
     std::string loader, library_path; // how the machine that made the kit loads programs
     std::vector<std::string> parts;
+    bool once = false;  // each scene
     double scale = 1;   // of all time limits
     double seconds = 1; // of each scene
 };
@@ -39,14 +40,14 @@ std::vector<std::string> launcherOf(const Options& options) {
     return {options.loader, "--library-path", options.library_path};
 }
 
-// A process of its own does this, for one part.
+// Does the work of one part, in a process of its own.
 int runWork(const Options& options) {
     auto device = engine::Device::create({.select = options.device, .share_pipelines = true});
     if (!device) return fail(device.error());
     const Kit kit(kitFolder(options), {}, options.device);
     if (options.work == "facts") std::printf("%s\n", device_check::factsOf(**device).dump().c_str());
     if (options.work == "models") device_check::fingerprintModels(**device, kit);
-    if (options.work == "scenes") device_check::simulateScenes(**device, kit, options.seconds);
+    if (options.work == "scenes") device_check::simulateScenes(**device, kit, options.seconds, options.once);
     if (options.work == "idle") device_check::measureIdleSteps(**device, kit);
     return kOk;
 }
@@ -64,7 +65,9 @@ void tell(const Part& part, const Json& outcome) {
     const int wrote = std::printf("%-42s %-8s %6.1f s%s\n", part.title, outcome["status"].get<std::string>().c_str(),
                                   outcome["seconds"].get<double>(), reason.empty() ? "" : ("  " + reason).c_str());
     if (wrote >= 0 && std::fflush(stdout) == 0) return;
-    if (!told) std::fprintf(stderr, "brittle: nobody reads this output any more; the check goes on and writes its results\n");
+    std::clearerr(stdout);
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) std::clearerr(stdout);
+    if (!told) std::fprintf(stderr, "brittle: standard output cannot be written; the check goes on and writes its results\n");
     told = true;
 }
 
@@ -74,7 +77,7 @@ bool isWanted(const Options& options, const Part& part) {
 
 Json aboutProgram() { return {{"version", BRITTLE_VERSION}, {"commit", BRITTLE_COMMIT}, {"compiler", BRITTLE_COMPILER}}; }
 
-constexpr double kWholeCheck = 350, kWorthGoingOn = 10; // s
+constexpr double kWholeCheck = 350, kWorthGoingOn = 10, kLongestWork = 3600; // s
 
 // The parts of one check, in order.
 class Check {
@@ -112,17 +115,23 @@ private:
         return outcome;
     }
 
-    // What other parts have left of the time goes to tests that did not run in theirs.
+    // Gives the time that other parts have left to tests that did not run in their own.
     void goOn(const Part& part, Results& results) {
         const double left = std::chrono::duration<double>(until_ - Clock::now()).count();
         const Json before = results.json()["parts"].value(part.name, Json());
-        if (left < kWorthGoingOn * options_.scale || before.is_null() || before["status"] == "passed") return;
+        if (left < kWorthGoingOn * options_.scale || before.is_null() || !hasTestsLeft(before)) return;
         Part more = part;
         more.limit_s = left / options_.scale;
         Json outcome = runPart(more, results);
         outcome["seconds"] = outcome["seconds"].get<double>() + before["seconds"].get<double>();
         outcome["limit_s"] = outcome["limit_s"].get<double>() + before["limit_s"].get<double>();
         results.add(part.name, outcome);
+    }
+
+    static bool hasTestsLeft(const Json& part) {
+        if (!part.contains("programs")) return false;
+        return std::ranges::any_of(part["programs"],
+                                   [](const Json& run) { return run["not run"] != 0 || run.contains("problem"); });
     }
 
     static bool hasFailed(Results& results) {
@@ -150,7 +159,7 @@ int runCheck(const Options& options) {
     const std::filesystem::path folder = options.output.empty() ? kitFolder(options) : std::filesystem::path(options.output);
     const auto scratch = scratchIn(folder);
     if (!scratch) return fail(scratch.error());
-    Results results(folder);
+    Results results(folder, {{kitFolder(options).string(), "KIT"}, {scratch->string(), "SCRATCH"}});
     results.json() = {{"format", 1}, {"brittle", aboutProgram()}, {"parts", Json::object()}};
     const int code = Check(options, *scratch).run(results);
     if (code != kDeviceError)
@@ -158,23 +167,34 @@ int runCheck(const Options& options) {
                     results.wasWritten() ? "" : ", as far as they could be written");
     std::error_code ignored;
     std::filesystem::remove_all(*scratch, ignored);
-    return code;
+    return code == kOk && !results.wasWritten() ? int{kBadInput} : code;
 }
 
-// What other devices are held against.
-int writeExpected(const Options& options) {
+// Returns the lines that one kind of work prints, and shows progress.
+engine::Result<Json> linesOf(const Options& options, const std::string& work) {
     const Kit kit(kitFolder(options), launcherOf(options), options.device);
+    Json lines = Json::array();
+    const auto add = [&](std::string_view text) {
+        if (Json line = Json::parse(text, nullptr, /*allow_exceptions=*/false); line.is_object())
+            lines.push_back(std::move(line));
+        showProgress("expected " + work + ": " + std::to_string(lines.size()));
+    };
+    const auto end =
+        runChild(kit.command("brittle", {"check-device", "--work", work, "--once", "--kit", kitFolder(options).string()},
+                             inSeconds(kLongestWork)),
+                 add);
+    clearProgress();
+    if (!end.isGood()) return engine::Error{engine::ErrorCode::Internal, work + ": " + end.reason};
+    return lines;
+}
+
+// Writes the file that other devices are compared with.
+int writeExpected(const Options& options) {
     Json expected;
     for (const char* work : {"facts", "models", "scenes"}) {
-        showProgress(std::string("expected ") + work);
-        Json lines = Json::array();
-        const auto end = runChild(
-            kit.command("brittle", {"check-device", "--work", work, "--kit", kitFolder(options).string()}, inSeconds(3600)),
-            [&](std::string_view line) { lines.push_back(Json::parse(line, nullptr, false)); });
-        clearProgress();
-        if (!end.isGood()) return fail({engine::ErrorCode::Internal, std::string(work) + ": " + end.reason});
-        expected[work] =
-            std::string(work) == "facts" ? Json{{"name", lines[0]["name"]}, {"driver", lines[0]["driver"]}} : lines;
+        auto lines = linesOf(options, work);
+        if (!lines) return fail(lines.error());
+        expected[work] = std::move(*lines);
     }
     auto file = createOutput(options.expect);
     if (!file) return fail(file.error());
@@ -222,6 +242,7 @@ void addCheckDevice(CLI::App& app, int& exit_code) {
         ->add_option("--write-expected", options->expect,
                      "write what this device gives to this file, for others to be held against")
         ->check(someText);
+    command->add_flag("--once", options->once)->group("");
     command->add_option("--work", options->work)->group("")->check(CLI::IsMember({"facts", "models", "scenes", "idle"}));
     command->callback([options, &exit_code] {
         exit_code = !options->work.empty()     ? runWork(*options)

@@ -21,7 +21,7 @@ struct PartContext {
     const Json& expected;         // of a known device; may be null
     const Json& facts;            // of this device, once part "device" has run; else null
     std::filesystem::path folder; // for what a part must write; exists
-    TestRuns& test_runs;          // what has run so far: a part that is called again goes on with the rest
+    TestRuns& test_runs;          // the runs until now: a part that is called again goes on with the rest
     Clock::time_point until;
 };
 

@@ -23,7 +23,7 @@ Work runWork(const PartContext& context, const std::string& what) {
     return work;
 }
 
-// The expected line about the same thing; null if there is none.
+// Returns the expected line about the same thing, or null.
 Json expectedFor(const Json& expected, const char* list, const Json& line, std::initializer_list<const char*> keys) {
     if (!expected.is_object() || !expected.contains(list)) return nullptr;
     for (const Json& candidate : expected[list]) {

@@ -1,4 +1,4 @@
-// What a Vulkan device says of itself, as JSON.
+// Reads the properties of a Vulkan device, as JSON.
 #pragma once
 
 #include "engine/device.h"

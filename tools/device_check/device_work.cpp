@@ -129,12 +129,12 @@ void fingerprintModels(engine::Device& device, const Kit& kit) {
         fingerprintModel(**fracture, name, path);
 }
 
-void simulateScenes(engine::Device& device, const Kit& kit, double seconds) {
+void simulateScenes(engine::Device& device, const Kit& kit, double seconds, bool once) {
     for (const std::string& name : sceneNames(kit)) {
         if (!isSmall(name)) continue;
         const std::string shown = std::filesystem::path(name).stem().string();
         const auto first = simulateOnce(device, name, seconds);
-        const auto second = first ? simulateOnce(device, name, seconds) : first;
+        const auto second = first && !once ? simulateOnce(device, name, seconds) : first;
         print(second ? toJson(shown, seconds, *first, *second) : Json{{"scene", shown}, {"error", second.error().message}});
     }
 }

@@ -16,7 +16,7 @@ ChildCommand Kit::command(const std::string& program, const std::vector<std::str
     command.words.insert(command.words.end(), arguments.begin(), arguments.end());
     command.environment = {"BRITTLE_TEST_SOURCE=" + (folder_ / "source").string(),
                            "BRITTLE_TEST_MODULES=" + (folder_ / "modules").string()};
-    // NVIDIA's driver keeps no cache for root unless it is told to.
+    // NVIDIA's driver keeps no cache for root unless a variable asks for it.
     if (!scratch_.empty())
         command.environment.insert(command.environment.end(),
                                    {"__GL_SHADER_DISK_CACHE=1", "__GL_SHADER_DISK_CACHE_PATH=" + scratch_.string()});

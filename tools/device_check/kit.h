@@ -40,7 +40,7 @@ public:
     std::vector<std::filesystem::path> recordings() const;
     // Names in scenes.txt, one per line; empty if there is no such file: all scenes.
     std::vector<std::string> scenes() const;
-    // What a known device gave; null if the file is missing or damaged.
+    // Returns the outcome on a known device, or null if the file is missing or damaged.
     Json expected() const;
 
 private:

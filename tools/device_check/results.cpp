@@ -12,7 +12,7 @@ bool writeFile(const std::filesystem::path& path, const std::string& text, bool&
     engine::Result<void> done = file ? file->write(text) : engine::Result<void>(file.error());
     if (done) done = file->commit();
     if (done) return true;
-    if (!told) std::fprintf(stderr, "brittle: %s; what was written before stays\n", done.error().message.c_str());
+    if (!told) std::fprintf(stderr, "brittle: %s; the earlier file stays\n", done.error().message.c_str());
     told = true;
     return false;
 }
@@ -24,9 +24,21 @@ void Results::add(const std::string& name, const Json& outcome) {
     write();
 }
 
+// Paths are hidden in the text of the JSON, where they stand in messages of all kinds.
+Json Results::shown() const {
+    std::string text = json_.dump();
+    for (const auto& [path, word] : hidden_)
+        for (size_t at = path.empty() ? std::string::npos : text.find(path); at != std::string::npos;
+             at = text.find(path, at + word.size()))
+            text.replace(at, path.size(), word);
+    Json shown = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    return shown.is_discarded() ? json_ : shown;
+}
+
 void Results::write() {
-    const bool has_json = writeFile(folder_ / "results.json", json_.dump(1) + "\n", told_json_);
-    const bool has_page = writeFile(folder_ / "results.html", pageOf(json_), told_page_);
+    const Json json = shown();
+    const bool has_json = writeFile(folder_ / "results.json", json.dump(1) + "\n", told_json_);
+    const bool has_page = writeFile(folder_ / "results.html", pageOf(json), told_page_);
     written_ = has_json && has_page;
 }
 

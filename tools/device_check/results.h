@@ -1,16 +1,21 @@
-// What a check found, and the two files it is kept in: results.json for programs, results.html for people.
+// Keeps the findings of a check in two files: results.json for programs, results.html for people.
 #pragma once
 
 #include "tools/device_check/kit.h"
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace device_check {
 
 class Results {
 public:
-    explicit Results(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    // `hidden`: paths, and the words that stand for them in the files. So results can be sent without names of users.
+    using Hidden = std::vector<std::pair<std::string, std::string>>;
+    explicit Results(std::filesystem::path folder, Hidden hidden = {})
+        : folder_(std::move(folder)), hidden_(std::move(hidden)) {}
 
     Json& json() { return json_; }
     // Adds a part's outcome, or replaces it if there is one of that name, and writes both files.
@@ -22,7 +27,10 @@ public:
     const std::filesystem::path& folder() const { return folder_; }
 
 private:
+    Json shown() const;
+
     std::filesystem::path folder_;
+    Hidden hidden_;
     Json json_ = Json::object();
     bool written_ = false;
     bool told_json_ = false, told_page_ = false;

@@ -4,28 +4,38 @@
 # Without a shell on the machine: ./busybox sh run.sh
 set -u
 
+complain() { echo "run.sh: $*" >&2; }
 kit=${0%/*}
 [ "$kit" != "$0" ] || kit=.
-kit=$(cd "$kit" && pwd) || exit 2
+kit=$(CDPATH='' cd -- "$kit" && pwd) || exit 2
+if [ ! -x "$kit/busybox" ] || [ ! -f "$kit/programs.tar.xz" ]; then
+  complain "busybox or programs.tar.xz is missing in $kit; run the script in its own folder, not through a link"
+  exit 2
+fi
 box() { "$kit/busybox" "$@"; }
-complain() { echo "run.sh: $*" >&2; }
 
-# Unpacks the programs once: beside this script, or if that cannot be written to, in a folder for temporary files.
+# Unpacks the programs once: beside this script, or if that cannot be written to, in a folder for temporary files. Of several
+# that unpack at a time, the first puts its folder in place. A folder of another user is not used.
 unpack() {
-  name=$(box md5sum "$kit/programs.tar.xz" | box cut -c1-12)
+  name=$(box md5sum <"$kit/programs.tar.xz" | box cut -c1-12)
   for folder in "$kit" "${TMPDIR:-/tmp}"; do
     programs=$folder/unpacked-$name
-    [ ! -f "$programs/bin/brittle" ] || return 0
-    box mkdir -p "$programs.new" 2>/dev/null || continue
-    echo "run.sh: unpacking to $programs" >&2
-    if box tar -xJf "$kit/programs.tar.xz" -C "$programs.new" && box mv "$programs.new" "$programs"; then return 0; fi
-    box rm -rf "$programs.new"
+    ! is_usable || return 0
+    box mkdir -p "$programs.new.$$" 2>/dev/null || continue
+    complain "unpacking to $programs"
+    if box tar -xJf "$kit/programs.tar.xz" -C "$programs.new.$$"; then
+      [ -e "$programs" ] || box mv "$programs.new.$$" "$programs" 2>/dev/null
+    fi
+    box rm -rf "$programs.new.$$"
+    ! is_usable || return 0
   done
-  complain "the programs cannot be unpacked; this needs 110 MB in $kit or ${TMPDIR:-/tmp}"
+  complain "the programs cannot be unpacked: programs.tar.xz is damaged, or there are no 110 MB in $kit or ${TMPDIR:-/tmp}"
   exit 2
 }
 
-# 236 of glibc 2.36; 0 of none.
+is_usable() { [ -f "$programs/bin/brittle" ] && { [ "$folder" = "$kit" ] || [ -O "$programs" ]; }; }
+
+# 236 of glibc 2.36; 0 if there is no version.
 as_number() {
   case $1 in
     [0-9]*.[0-9]*) minor=${1#*.}; echo $((${1%%.*} * 100 + ${minor%%.*})) ;;
@@ -38,7 +48,7 @@ machine_glibc() {
   as_number "$(/lib64/ld-linux-x86-64.so.2 --version 2>/dev/null | box sed -n '1s/.* \([0-9.]*[0-9]\)\.*$/\1/p')"
 }
 
-# The number behind libstdc++.so.6.0. in these folders; 0 if there is none.
+# The number behind libstdc++.so.6.0. in these folders; 0 if no file exists.
 newest_cxx() {
   newest=0
   for file in "$@"; do
@@ -102,6 +112,8 @@ unpack
 choose_libraries
 if ! find_device; then
   complain "no Vulkan device can be used: $said"
+  manifests=${VK_DRIVER_FILES:-${VK_ICD_FILENAMES:-}}
+  [ -z "$manifests" ] || complain "drivers are taken from $manifests alone, because VK_DRIVER_FILES or VK_ICD_FILENAMES says so"
   complain "install this GPU's Vulkan driver; drivers are listed in /usr/share/vulkan/icd.d or \$VK_DRIVER_FILES"
   exit 4
 fi
