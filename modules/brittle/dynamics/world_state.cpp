@@ -2,6 +2,7 @@
 
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/upload.h"
+#include "modules/brittle/mesh/byte_hash.h"
 
 #include <cstring>
 #include <numeric>
@@ -84,10 +85,9 @@ Result<void> writeState(engine::Device& device, std::span<const std::byte> state
 }
 
 uint64_t hashOf(std::span<const std::byte> bytes) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (const std::byte b : bytes)
-        hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3u;
-    return hash;
+    ByteHash hash;
+    hash.add(bytes);
+    return hash.value();
 }
 
 } // namespace brittle
