@@ -1,8 +1,9 @@
 #include "tests/support/process.h"
 
+#include "tools/device_check/spawn.h"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -16,29 +17,6 @@
 #include <unistd.h>
 
 namespace support {
-namespace {
-
-// What is set comes first: a later setting of the same name is left out.
-std::vector<std::string> environmentWith(const std::vector<std::string>& settings) {
-    std::vector<std::string> all = settings;
-    for (char** inherited = environ; *inherited != nullptr; ++inherited) {
-        const size_t name = std::strcspn(*inherited, "=") + 1;
-        const auto is_same = [&](const std::string& setting) { return setting.compare(0, name, *inherited, name) == 0; };
-        if (std::ranges::none_of(settings, is_same)) all.emplace_back(*inherited);
-    }
-    return all;
-}
-
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
-} // namespace
-
 std::string fileBytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -50,15 +28,13 @@ RunningProgram::RunningProgram(const std::string& program, const std::vector<std
     base_ = testing::TempDir() + "brittle_run_" + std::to_string(getpid()) + "_" + std::to_string(runs++);
     std::vector<std::string> words{std::string(BRITTLE_BINARY_DIR) + "/" + program};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<std::string> settings = environmentWith(environment);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     constexpr int kFresh = O_WRONLY | O_CREAT | O_TRUNC;
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, (base_ + ".out").c_str(), kFresh, 0600);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, (base_ + ".err").c_str(), kFresh, 0600);
-    const int failed =
-        posix_spawn(&pid_, words[0].c_str(), &files, nullptr, pointersTo(words).data(), pointersTo(settings).data());
+    const int failed = device_check::spawnProgram(words, environment, files, nullptr, pid_);
     posix_spawn_file_actions_destroy(&files);
     if (failed == 0) return;
     pid_ = -1;

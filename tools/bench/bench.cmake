@@ -26,7 +26,7 @@ if(TARGET brittle_module)
         ${bench_dir}/bench_piles.cpp ${bench_dir}/bench_shatter.cpp ${bench_dir}/bench_startup.cpp
         ${bench_dir}/bench_variants.cpp ${bench_dir}/our_side.cpp ${bench_dir}/peer_bullet.cpp ${bench_dir}/peer_cgal.cpp
         ${bench_dir}/phase_run.cpp)
-    target_link_libraries(brittle_bench PUBLIC brittle_module PRIVATE brittle_bench_inputs brittle_measures)
+    target_link_libraries(brittle_bench PUBLIC brittle_module PRIVATE brittle_bench_inputs brittle_device_check brittle_measures)
     if(BULLET_HEADERS AND BULLET_DYNAMICS AND BULLET_COLLISION AND BULLET_MATH)
         target_compile_definitions(brittle_bench PRIVATE BRITTLE_PEER_BULLET)
         target_include_directories(brittle_bench SYSTEM PRIVATE ${BULLET_HEADERS})

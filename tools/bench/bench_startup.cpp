@@ -1,5 +1,6 @@
 // What a whole process costs that breaks a small model: with nothing in the driver's cache, and with all of it.
 #include "tools/bench/bench.h"
+#include "tools/device_check/cached_start.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -30,21 +31,23 @@ private:
     fs::path path_;
 };
 
-// Milliseconds; nothing where it failed. Mesa keeps its cache in `cache`; other drivers keep theirs where they always do.
-std::optional<double> runOnce(const fs::path& program, const fs::path& cache, const std::string& device) {
-    const std::string command = "MESA_SHADER_CACHE_DIR='" + cache.string() + "' BRITTLE_DEVICE='" + device + "' '" +
-                                program.string() + "' shatter builtin:icosphere:3 --sites 10 -o '" +
-                                (cache / "out.glb").string() + "' >/dev/null 2>&1";
-    const auto begin = std::chrono::steady_clock::now();
-    if (std::system(command.c_str()) != 0) return std::nullopt; // NOLINT(cert-env33-c): our own program, our own arguments
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+constexpr std::chrono::minutes kLongest{10};
+
+// Milliseconds; nothing if the program failed.
+std::optional<double> runOnce(const std::string& program, const fs::path& cache, const std::string& device) {
+    const device_check::ChildCommand command = {
+        .words = {program, "shatter", "builtin:icosphere:3", "--sites", "10", "-o", (cache / "out.glb").string()},
+        .environment = {"BRITTLE_DEVICE=" + device},
+        .until = device_check::Clock::now() + kLongest};
+    const device_check::ChildEnd end = device_check::runWithCache(command, cache);
+    if (!end.isGood()) return std::nullopt;
+    return 1000 * end.seconds;
 }
 
 } // namespace
 
 engine::Result<StartupRow> benchStartup(engine::Device& device, const BenchOptions& options, const Progress& progress) {
-    std::error_code unreadable;
-    const fs::path self = fs::read_symlink("/proc/self/exe", unreadable);
+    const std::string self = device_check::ownPath();
     std::vector<double> cold, warm;
     for (uint32_t round = 0; round < options.startup_rounds; ++round) {
         progress("start of a process with an empty cache, " + std::to_string(round + 1) + " of " +

@@ -45,7 +45,7 @@ int runWork(const Options& options) {
     auto device = engine::Device::create({.select = options.device, .share_pipelines = true});
     if (!device) return fail(device.error());
     const Kit kit(kitFolder(options), {}, options.device);
-    if (options.work == "facts") std::printf("%s\n", device_check::factsOf(**device).dump().c_str());
+    if (options.work == "facts") std::printf("%s\n", device_check::textOf(device_check::factsOf(**device)).c_str());
     if (options.work == "models") device_check::fingerprintModels(**device, kit);
     if (options.work == "scenes") device_check::simulateScenes(**device, kit, options.seconds, options.once);
     if (options.work == "idle") device_check::measureIdleSteps(**device, kit);
@@ -198,7 +198,7 @@ int writeExpected(const Options& options) {
     }
     auto file = createOutput(options.expect);
     if (!file) return fail(file.error());
-    if (auto written = file->write(expected.dump(1) + "\n"); !written) return fail(written.error());
+    if (auto written = file->write(device_check::textOf(expected, 1) + "\n"); !written) return fail(written.error());
     if (auto committed = file->commit(); !committed) return fail(committed.error());
     return kOk;
 }

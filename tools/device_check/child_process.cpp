@@ -1,5 +1,7 @@
 #include "tools/device_check/child_process.h"
 
+#include "tools/device_check/spawn.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -42,27 +44,6 @@ private:
     bool open_ = false;
 };
 
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
-// A setting replaces an inherited one of the same name, and an earlier setting.
-std::vector<std::string> environmentWith(const std::vector<std::string>& settings) {
-    std::vector<std::string> all;
-    for (char** inherited = environ; *inherited != nullptr; ++inherited)
-        all.emplace_back(*inherited);
-    for (const std::string& setting : settings) {
-        const std::string name = setting.substr(0, setting.find('=') + 1);
-        std::erase_if(all, [&](const std::string& known) { return known.starts_with(name); });
-        all.push_back(setting);
-    }
-    return all;
-}
-
 // Its own process group, so that its children can be ended with it; default signals, whatever this process blocks or ignores.
 void setAttributes(posix_spawnattr_t& attributes) {
     posix_spawnattr_init(&attributes);
@@ -78,7 +59,6 @@ void setAttributes(posix_spawnattr_t& attributes) {
 }
 
 int spawn(const ChildCommand& command, const Pipe& out, const Pipe& errors, pid_t& pid) {
-    std::vector<std::string> words = command.words, settings = environmentWith(command.environment);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -86,8 +66,7 @@ int spawn(const ChildCommand& command, const Pipe& out, const Pipe& errors, pid_
     posix_spawn_file_actions_adddup2(&files, errors.writing(), STDERR_FILENO);
     posix_spawnattr_t attributes;
     setAttributes(attributes);
-    const int failed =
-        posix_spawn(&pid, words[0].c_str(), &files, &attributes, pointersTo(words).data(), pointersTo(settings).data());
+    const int failed = spawnProgram(command.words, command.environment, files, &attributes, pid);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return failed;

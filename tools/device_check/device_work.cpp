@@ -7,6 +7,7 @@
 #include "tools/brittle/model.h"
 #include "tools/brittle/scene_source.h"
 #include "tools/brittle/simulation.h"
+#include "tools/device_check/results.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +20,7 @@ constexpr size_t kMostBodies = 300;
 constexpr double kIdleSeconds = 2;
 
 void print(const Json& line) {
-    std::printf("%s\n", line.dump().c_str());
+    std::printf("%s\n", textOf(line).c_str());
     std::fflush(stdout);
 }
 
@@ -68,7 +69,7 @@ void fingerprintModel(brittle::Fracture& fracture, const std::string& name, cons
 std::vector<std::string> sceneNames(const Kit& kit) {
     std::vector<std::string> names;
     std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(kit.path("source/modules/brittle/scene/examples"), none))
+    for (const auto& entry : std::filesystem::directory_iterator(kit.examples(), none))
         if (entry.path().extension() == ".toml") names.push_back(entry.path().string());
     std::ranges::sort(names);
     for (const brittle::SceneEntry& entry : brittle::builtinScenes())
@@ -80,17 +81,11 @@ std::vector<std::string> sceneNames(const Kit& kit) {
     return names;
 }
 
-engine::Result<cli::SimulationReport> simulateOnce(engine::Device& device, const std::string& name, double seconds) {
-    auto scene = cli::readSceneOrBuiltin(name);
-    if (!scene) return scene.error();
-    auto staged = cli::stageScene(device, std::move(*scene), {.source = name});
+engine::Result<cli::SimulationReport> simulateOnce(engine::Device& device, const brittle::SceneDescription& scene,
+                                                   const std::string& name, double seconds) {
+    auto staged = cli::stageScene(device, scene, {.source = name});
     if (!staged) return staged.error();
     return cli::simulate(device, *staged, seconds, 0, nullptr);
-}
-
-bool isSmall(const std::string& name) {
-    const auto scene = cli::readSceneOrBuiltin(name);
-    return !scene || scene->bodies.size() <= kMostBodies;
 }
 
 Json toJson(const std::string& name, double seconds, const cli::SimulationReport& first, const cli::SimulationReport& second) {
@@ -102,6 +97,14 @@ Json toJson(const std::string& name, double seconds, const cli::SimulationReport
             {"kinetic_energy", first.kinetic_energy},
             {"median_ms", second.median_ms},
             {"p99_ms", second.p99_ms}};
+}
+
+Json sceneLine(engine::Device& device, const std::string& name, const brittle::SceneDescription& scene, double seconds,
+               bool once) {
+    const std::string shown = std::filesystem::path(name).stem().string();
+    const auto first = simulateOnce(device, scene, name, seconds);
+    const auto second = first && !once ? simulateOnce(device, scene, name, seconds) : first;
+    return second ? toJson(shown, seconds, *first, *second) : Json{{"scene", shown}, {"error", second.error().message}};
 }
 
 void keepWhole(brittle::SceneDescription& scene) {
@@ -131,23 +134,21 @@ void fingerprintModels(engine::Device& device, const Kit& kit) {
 
 void simulateScenes(engine::Device& device, const Kit& kit, double seconds, bool once) {
     for (const std::string& name : sceneNames(kit)) {
-        if (!isSmall(name)) continue;
-        const std::string shown = std::filesystem::path(name).stem().string();
-        const auto first = simulateOnce(device, name, seconds);
-        const auto second = first && !once ? simulateOnce(device, name, seconds) : first;
-        print(second ? toJson(shown, seconds, *first, *second) : Json{{"scene", shown}, {"error", second.error().message}});
+        const auto scene = cli::readSceneOrBuiltin(name);
+        if (!scene)
+            print({{"scene", name}, {"error", scene.error().message}});
+        else if (scene->bodies.size() <= kMostBodies)
+            print(sceneLine(device, name, *scene, seconds, once));
     }
 }
 
 void measureIdleSteps(engine::Device& device, const Kit& kit) {
-    const std::string name = kit.path("source/modules/brittle/scene/examples/quiet_shelf.toml").string();
+    const std::string name = kit.example("quiet_shelf").string();
     for (const bool breaks : {true, false}) {
         auto scene = cli::readSceneOrBuiltin(name);
         if (!scene) return print({{"error", scene.error().message}});
         if (!breaks) keepWhole(*scene);
-        auto staged = cli::stageScene(device, std::move(*scene), {.source = name});
-        const auto report = staged ? cli::simulate(device, *staged, kIdleSeconds, 0, nullptr)
-                                   : engine::Result<cli::SimulationReport>(staged.error());
+        const auto report = simulateOnce(device, *scene, name, kIdleSeconds);
         print(report ? idleLine(breaks, *report) : Json{{"breaking", breaks}, {"error", report.error().message}});
     }
 }

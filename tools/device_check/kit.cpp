@@ -14,8 +14,10 @@ ChildCommand Kit::command(const std::string& program, const std::vector<std::str
     command.words = launcher_;
     command.words.push_back((folder_ / "bin" / program).string());
     command.words.insert(command.words.end(), arguments.begin(), arguments.end());
-    command.environment = {"BRITTLE_TEST_SOURCE=" + (folder_ / "source").string(),
-                           "BRITTLE_TEST_MODULES=" + (folder_ / "modules").string()};
+    // Without copies, tests read the tree that they were built from.
+    if (fs::exists(folder_ / "source"))
+        command.environment = {"BRITTLE_TEST_SOURCE=" + (folder_ / "source").string(),
+                               "BRITTLE_TEST_MODULES=" + (folder_ / "modules").string()};
     // NVIDIA's driver keeps no cache for root unless a variable asks for it.
     if (!scratch_.empty())
         command.environment.insert(command.environment.end(),

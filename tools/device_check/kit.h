@@ -34,6 +34,9 @@ public:
     ChildCommand command(const std::string& program, const std::vector<std::string>& arguments, Clock::time_point until) const;
 
     std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+    // The folder of the example scenes, and one of them by its name.
+    std::filesystem::path examples() const { return folder_ / "source/modules/brittle/scene/examples"; }
+    std::filesystem::path example(const std::string& scene) const { return examples() / (scene + ".toml"); }
     // Names of the models in meshes.txt, and their paths or builtin:NAME. Files that were not packed are left out.
     std::vector<std::pair<std::string, std::string>> models() const;
     // Recordings of motion on a known device, SCENE.motion (brittle compare --record).

@@ -27,7 +27,7 @@ public:
     const std::filesystem::path& folder() const { return folder_; }
 
 private:
-    Json shown() const;
+    std::string shown(int indent) const;
 
     std::filesystem::path folder_;
     Hidden hidden_;
@@ -36,7 +36,11 @@ private:
     bool told_json_ = false, told_page_ = false;
 };
 
-// One self-contained page with tables and plots of these results.
-std::string pageOf(const Json& results);
+// As text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character, are
+// replaced.
+std::string textOf(const Json& json, int indent = -1);
+
+// One self-contained page with tables and plots of these results, which are JSON text.
+std::string pageOf(const std::string& results);
 
 } // namespace device_check

@@ -10,8 +10,8 @@ namespace device_check {
 constexpr std::string_view kPlace = "/*RESULTS*/null";
 
 // "</" would end the script that the results stand in.
-std::string pageOf(const Json& results) {
-    std::string page(brittle_check_page_begin, brittle_check_page_end), json = results.dump();
+std::string pageOf(const std::string& results) {
+    std::string page(brittle_check_page_begin, brittle_check_page_end), json = results;
     for (size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3))
         json.insert(at + 1, "\\");
     const size_t place = page.find(kPlace);

@@ -1,4 +1,5 @@
 // Parts that measure times.
+#include "tools/device_check/cached_start.h"
 #include "tools/device_check/check_parts.h"
 
 #include <algorithm>
@@ -41,21 +42,11 @@ Json runBench(const PartContext& context, const BenchRun& run) {
     return {{"error", end.reason.empty() ? "no report" : end.reason}, {"out_of_time", end.kind == ChildEnd::Kind::OutOfTime}};
 }
 
-// Drivers keep their caches in this folder alone.
-std::vector<std::string> cacheIn(const std::filesystem::path& folder) {
-    std::vector<std::string> settings;
-    for (const char* name : {"MESA_SHADER_CACHE_DIR", "__GL_SHADER_DISK_CACHE_PATH", "XDG_CACHE_HOME", "HOME"})
-        settings.push_back(std::string(name) + "=" + folder.string());
-    return settings;
-}
-
 Json startOf(const PartContext& context, const std::vector<std::string>& arguments, const std::filesystem::path& cache) {
     Json times = Json::object();
+    std::filesystem::create_directories(cache);
     for (const char* which : {"cold", "warm"}) {
-        ChildCommand command = context.kit.command("brittle", arguments, context.until);
-        const std::vector<std::string> settings = cacheIn(cache);
-        command.environment.insert(command.environment.end(), settings.begin(), settings.end());
-        const ChildEnd end = runChild(command, [](std::string_view) {});
+        const ChildEnd end = runWithCache(context.kit.command("brittle", arguments, context.until), cache);
         if (!end.isGood()) {
             times["error"] = end.reason;
             times["out_of_time"] = end.kind == ChildEnd::Kind::OutOfTime;
@@ -92,12 +83,13 @@ Json measureBench(const PartContext& context) {
 
 Json measureStart(const PartContext& context) {
     Json outcome, starts = Json::object();
-    const std::string scene = context.kit.path("source/modules/brittle/scene/examples/window_pane.toml").string();
+    const std::filesystem::path scene = context.kit.example("window_pane");
     const std::string glb = (context.folder / "start.glb").string();
     starts["shatter"] =
         startOf(context, {"shatter", "builtin:icosphere:3", "--sites", "10", "-o", glb}, context.folder / "cache-shatter");
-    starts["window_pane"] =
-        startOf(context, {"simulate", scene, "--seconds", "0.1", "--state-hash"}, context.folder / "cache-scene");
+    if (std::filesystem::exists(scene))
+        starts["window_pane"] =
+            startOf(context, {"simulate", scene.string(), "--seconds", "0.1", "--state-hash"}, context.folder / "cache-scene");
     judge(outcome, starts);
     outcome["starts"] = std::move(starts);
     return outcome;

@@ -1,0 +1,13 @@
+// Starts programs with a cache of compiled kernels of their own, to see what a cold and a warm start take.
+#pragma once
+
+#include "tools/device_check/child_process.h"
+
+#include <filesystem>
+
+namespace device_check {
+
+// As runChild, which see. The driver keeps its cache in `cache` alone, a folder that exists: Mesa's and NVIDIA's drivers do.
+ChildEnd runWithCache(ChildCommand command, const std::filesystem::path& cache);
+
+} // namespace device_check
