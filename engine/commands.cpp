@@ -30,16 +30,6 @@ Access kernelAccess(const BufferView& view, const ReflectedBinding& binding) {
 
 bool fits(const BufferView& view) { return view.offset + view.size <= view.buffer->size(); }
 
-VkBufferMemoryBarrier transferOf(const Device& device, const BufferView& view) {
-    VkBufferMemoryBarrier barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER};
-    barrier.srcQueueFamilyIndex = device.computeQueue().family;
-    barrier.dstQueueFamilyIndex = device.graphicsQueue().family;
-    barrier.buffer = view.buffer->handle();
-    barrier.offset = view.offset;
-    barrier.size = view.size;
-    return barrier;
-}
-
 } // namespace
 
 Commands::Commands(Device& device) : device_(device), descriptors_(device), timestamps_(device, device.computeQueue()) {}
@@ -383,29 +373,6 @@ void Commands::declare(std::span<const Access> accesses) {
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, source->writes, kAccesses};
     device_.vk().vkCmdPipelineBarrier(commands_, source->stages, kStages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
     ++barrier_count_;
-}
-
-void Commands::releaseToGraphics(std::span<const BufferView> buffers) {
-    if (device_.sharesQueueFamily() || !device_.hasGraphics()) return;
-    flush();
-    std::vector<VkBufferMemoryBarrier> barriers;
-    for (const BufferView& view : buffers) {
-        barriers.push_back(transferOf(device_, view));
-        barriers.back().srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-    }
-    device_.vk().vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 0,
-                                      nullptr, static_cast<uint32_t>(barriers.size()), barriers.data(), 0, nullptr);
-}
-
-void Commands::acquireFromCompute(const Device& device, VkCommandBuffer graphics, std::span<const BufferView> buffers) {
-    if (device.sharesQueueFamily()) return;
-    std::vector<VkBufferMemoryBarrier> barriers;
-    for (const BufferView& view : buffers) {
-        barriers.push_back(transferOf(device, view));
-        barriers.back().dstAccessMask = VK_ACCESS_MEMORY_READ_BIT;
-    }
-    device.vk().vkCmdPipelineBarrier(graphics, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
-                                     nullptr, static_cast<uint32_t>(barriers.size()), barriers.data(), 0, nullptr);
 }
 
 void Commands::fail(Error error) {

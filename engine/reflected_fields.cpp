@@ -87,7 +87,7 @@ private:
                    std::to_string(place.matrix_stride) + " bytes apart";
         return scalarOf(type);
     }
-    // What a vector or a matrix is made of; of a number itself.
+    // Returns the type of the parts of a vector or a matrix, or the type itself if it is a number.
     const SpirvType* partOf(const SpirvType& type) const {
         return type.op == spv::OpTypeInt || type.op == spv::OpTypeFloat ? &type : module_.find(type.operands[0]);
     }

@@ -24,7 +24,7 @@ struct ReflectedField {
     std::string path;   // "bodies[].offset"
     std::string holder; // the struct that it is a member of
     std::string layout; // type and place in words: equal only where host and shader mean the same bytes
-    std::string scalar; // type of one number: "float", "uint64"; empty for what is neither number, vector nor matrix
+    std::string scalar; // type of one number: "float", "uint64"; empty if the field is no number, vector or matrix
     uint32_t rows = 1, columns = 1;     // of a vector `rows` numbers, of a matrix `columns` vectors
     uint32_t matrix_stride = 0;         // bytes from column to column
     uint32_t offset = 0;                // bytes, in the element of the innermost array, or in the block

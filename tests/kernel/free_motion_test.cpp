@@ -180,8 +180,8 @@ TEST(SmallFreeMotion, KeepsTheEnergyOfItsTurning) {
     }
 }
 
-// Of two equal moments the splitting is exact, so that nothing but rounding is left. The body keeps its size: one without
-// thickness stops as soon as rounding takes it off its way.
+// With two equal moments the splitting is exact, so only rounding is left. The body keeps its size: a body without thickness
+// stops as soon as rounding takes it off its way.
 TEST(SmallFreeMotion, OfATopWithTwoEqualMomentsIsExact) {
     for (uint32_t seed = 0; seed < 5; ++seed) {
         RigidBody body = tumbling(seed, 8);

@@ -19,7 +19,7 @@ std::vector<Vec2> onDeviceOf(const std::vector<float>& angles) {
     return valuesOf<Vec2>(out, angles.size());
 }
 
-// Of both signs, evenly over the exponents of floats.
+// Draws angles of both signs, evenly over the exponents of floats.
 std::vector<float> anglesUpTo(double most, size_t count) {
     std::mt19937 random(7);
     std::vector<float> angles = {0.0f, -0.0f, 1e-30f, static_cast<float>(most)};

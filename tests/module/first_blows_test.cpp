@@ -1,5 +1,5 @@
-// What breaks a body is what meets it first, of its own pieces, which lie behind each other, and of several bodies; where and
-// when it does, and only that.
+// The impact that comes first in a step breaks a body, among its own pieces and among several bodies. Tests check its place,
+// its time, and that no later impact counts.
 #include "modules/brittle/scene/scene_file.h"
 #include "tests/module/breaking_scenes.h"
 #include "tests/support/folders.h"

@@ -17,7 +17,7 @@ struct RecordedBuffer {
     BufferHashes hashes;
     bool is_stable = true; // a second run gave the same hashes
     bool has_words = false;
-    // Of every 32-bit word that the pass changed, ascending: its index, and its value before and after.
+    // Index of each 32-bit word that the pass changed, ascending, and its values before and after.
     std::vector<uint32_t> places, before, after;
 };
 

@@ -140,7 +140,7 @@ private:
 
     const std::set<BufferId>* wanted_;
     Readback before_, after_;
-    // Of the pass that is shown: what is read, and where it is kept in CapturedPass::written.
+    // Views that the current pass writes, and their indices in CapturedPass::written.
     std::vector<BufferView> views_;
     std::vector<size_t> places_;
     StepCapture passes_;

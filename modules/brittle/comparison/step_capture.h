@@ -1,4 +1,4 @@
-// What the passes of one step write, read back after every pass.
+// Reads back the buffers that each pass of one step writes.
 #pragma once
 
 #include "engine/device.h"

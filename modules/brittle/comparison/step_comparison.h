@@ -39,7 +39,7 @@ struct StepComparison {
     std::vector<BufferDifference> rows; // in the order of the step, at most 20 of the kind Differs
     bool is_cut = false;                // there are more
 
-    // The first row of the kind Differs; nullptr if there is none.
+    // The first row of the kind Differs; nullptr if no row is of that kind.
     const BufferDifference* finding() const;
     size_t differing() const; // rows of the kind Differs
 };
@@ -52,7 +52,7 @@ void keepFirstRows(StepComparison& comparison);
 engine::Result<StepComparison> compareStep(ComparedWorld a, ComparedWorld b, std::span<const std::byte> state_a,
                                            std::span<const std::byte> state_b);
 
-// What compareStep knows of a buffer on one device: contents of two runs, or of one run that is repeated bit for bit.
+// Contents of a buffer after two runs on one device, or after one run that stands for both.
 struct RepeatedBuffer {
     const CapturedBuffer& first;
     const CapturedBuffer* second = nullptr; // nullptr: the same as the first

@@ -27,7 +27,7 @@ public:
     }
     Result<uint64_t> hash() { return named(compared_.world.hash()); }
     Result<std::vector<gpu::BodyState>> bodies() { return named(compared_.world.bodies()); }
-    // From now on steps are made that nobody goes back to.
+    // Keeps no states of later steps: none of them will be repeated.
     void stopKeeping() { keeps_ = false; }
     // The first step that can be gone back to, a number from 1.
     uint32_t firstStep() const { return kept_[0].before + 1; }

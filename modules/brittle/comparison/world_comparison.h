@@ -32,7 +32,7 @@ struct WorldComparison {
 
 // Steps both worlds, which have the same contents, settings and budget. The state of device A before the step in question is
 // restored into both worlds and the step is repeated pass by pass. If no pass differs then, up to seven steps before are
-// repeated likewise: memory of contacts may differ earlier than bodies. The worlds are left in some state.
+// repeated the same way: memory of contacts may differ earlier than bodies. The worlds are left in some state.
 // Errors: those of World::step, World::save and compareStep, beginning with "device A" or "device B".
 engine::Result<WorldComparison> compareWorlds(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options);
 

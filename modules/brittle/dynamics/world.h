@@ -115,7 +115,7 @@ public:
     // of the plan, fills and copies left out.
     virtual engine::Result<std::vector<double>> measure(uint32_t steps) = 0;
 
-    // Makes one step, pass by pass, and shows each to `probe`. Memory that a step makes anew is cleared before, so that the
+    // Makes one step, pass by pass, and shows each to `probe`. Memory that a step writes first is cleared before, so that the
     // same state gives the same bytes, whatever steps were made before. Takes many times as long as step(). Errors: those of
     // step(), those of the probe; BadInput for a step with a blow by hand.
     virtual engine::Result<void> probeStep(PassProbe& probe) = 0;
