@@ -55,6 +55,23 @@ BufferHashes hashesOf(Bytes before, Bytes after, uint32_t element_bytes) {
     return hashes;
 }
 
+// Links of disjoint sets (lib/union_find.glsl) lead down, by ways that depend on the order in which lanes run. Only the roots
+// are results, so this replaces each link by the root that it leads to.
+class RootedLinks {
+public:
+    // The result is valid until the next call.
+    Bytes of(Bytes links) {
+        roots_.assign(links.begin(), links.end());
+        for (size_t member = 0; member < roots_.size() / 4; ++member)
+            if (const uint32_t link = wordAt(roots_, member); link < member)
+                std::memcpy(roots_.data() + 4 * member, roots_.data() + size_t{4} * link, 4);
+        return roots_;
+    }
+
+private:
+    std::vector<std::byte> roots_;
+};
+
 // Copies of device memory, in a buffer that is kept from one pass to the next.
 class Readback {
 public:
@@ -130,6 +147,10 @@ private:
     }
     void keep(Bytes before, Bytes after, size_t place) {
         CapturedBuffer& buffer = passes_.back().written[place];
+        if (buffer.slot == "parents") {
+            before = rooted_[0].of(before);
+            after = rooted_[1].of(after);
+        }
         if (wanted_ == nullptr) {
             buffer.hashes = hashesOf(before, after, engine::elementBytes(buffer.fields));
             return;
@@ -144,6 +165,7 @@ private:
     std::vector<BufferView> views_;
     std::vector<size_t> places_;
     StepCapture passes_;
+    RootedLinks rooted_[2]; // before and after a pass
 };
 
 Result<StepCapture> capture(ComparedWorld compared, Bytes state, const std::set<BufferId>* wanted) {

@@ -164,7 +164,8 @@ void keepFirstRows(StepComparison& comparison) {
 }
 
 bool isUnordered(const CapturedBuffer& buffer) {
-    constexpr std::string_view kLists[] = {"found_pairs", "long_lists", "waiting", "contact_slots", "cap_slots"};
+    // `polygons` name their pairs by places in a list that lanes fill.
+    constexpr std::string_view kLists[] = {"found_pairs", "long_lists", "waiting", "contact_slots", "cap_slots", "polygons"};
     const bool is_hash_table = buffer.slot.ends_with("_table");
     return is_hash_table || buffer.slot.starts_with("loose_") || buffer.slot.find("cursor") != std::string::npos ||
            std::ranges::find(kLists, buffer.slot) != std::end(kLists);
