@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# tools/test.sh [--long]: sets up, builds and runs the tests: all of them in the release build, a part of them under the Vulkan
-# validation layers (core, synchronization, GPU-assisted), a part of them under the address and undefined-behavior sanitizers,
-# and the fuzzers of importers and scene files for about a minute in all, that of the C ABI for another one (tools/fuzz.sh runs them for longer).
-# --long adds the long tests: every model there is (tools/corpus.sh fetches some), larger models, more sites and seeds, the slow
-# cases of the kernels.
+# tools/test.sh [--long]: sets up, builds and runs the tests:
+#   release       all tests in the release build
+#   validation    a part under the Vulkan validation layer (core, synchronization)
+#   gpu_assisted  a part under the layer's check of each access of a kernel
+#   asan          a part under the address and undefined-behavior sanitizers
+#   fuzz          the fuzzers of importers, scene files and the C ABI, for about two minutes (tools/fuzz.sh runs them for longer)
+# --long adds every model there is (tools/corpus.sh fetches some), larger models, more sites and seeds, the slow cases of the
+# kernels, and all small tests under the check of each access.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -50,6 +53,7 @@ step build tools/build.sh release all
 if $failed; then exit 1; fi
 step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
 step validation ctest --preset validation --label-regex '^validation$' --no-tests=error --parallel 2
+step gpu_assisted ctest --preset gpu_assisted --label-regex '^gpu_assisted$' --no-tests=error --parallel 2
 step build-asan tools/build.sh asan brittle_tests_abi brittle_tests_engine brittle_tests_godot brittle_tests_hard \
   brittle_tests_module brittle_tests_reference brittle_tests_reload
 step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel 2
@@ -59,6 +63,7 @@ show_findings
 if $long; then
   step corpus tools/corpus.sh
   step long ctest --preset release --label-regex '^long$' --no-tests=error
+  step gpu_assisted_long ctest --preset gpu_assisted --label-regex '^gpu_assisted_long$' --no-tests=error --parallel 2
 fi
 
 echo

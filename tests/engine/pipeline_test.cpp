@@ -105,7 +105,9 @@ TEST(SharedPipelines, AreLeftAloneByAnotherVersionOfAKernel) {
 }
 
 TEST(SharedPipelines, AreNoneWhereNobodyAskedForThem) {
-    KernelLibrary one(device(), shaders::engineTestKernels()), two(device(), shaders::engineTestKernels());
+    const auto made = Device::create();
+    ASSERT_TRUE(made) << made.error().message;
+    KernelLibrary one(**made, shaders::engineTestKernels()), two(**made, shaders::engineTestKernels());
     EXPECT_NE(pipelineOf(one, "increment"), pipelineOf(two, "increment"));
     EXPECT_FALSE(two.isShared("increment"));
 }

@@ -33,6 +33,7 @@ std::array<std::unique_ptr<TestDevice>, kKinds> devices;
 
 engine::Device& deviceOf(Kind kind) {
     engine::DeviceOptions options;
+    options.share_pipelines = true; // each test makes a world of its own, and lavapipe takes a second for the kernels of one
     options.force_pooled_descriptors = kind == kPooled;
     options.minimal = kind == kMinimal;
     if (!devices[kind]) devices[kind] = std::make_unique<TestDevice>(options);

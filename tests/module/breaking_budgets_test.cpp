@@ -37,7 +37,7 @@ void stepWithRoomFor(uint32_t room, bool of_contacts, const SceneDescription& sc
     const auto world = worldOf(scene, budget);
     const double mass = massOf(presentBodies(*world));
     double dust = 0;
-    for (uint32_t k = 0; k < 60; ++k) {
+    for (uint32_t k = 0; k < 20; ++k) {
         const auto made = world->step();
         ASSERT_TRUE(made) << room << (of_contacts ? " contacts: " : " pairs: ") << made.error().message;
         const auto breaks = world->breaks();
@@ -76,7 +76,7 @@ TEST(BreakingBudgets, NoBudgetOfPairsEndsItAmongManyNeighbors) {
     }
     const SceneDescription scene = sceneOf(std::move(bodies));
     Outcomes outcomes;
-    for (const uint32_t room : {200u, 1000u, 4000u, 16000u, 64000u, 200000u})
+    for (const uint32_t room : {200u, 16000u, 200000u})
         stepWithRoomFor(room, false, scene, outcomes);
     EXPECT_GE(outcomes.broke, 2u);
     EXPECT_GE(outcomes.refused, 4u);
