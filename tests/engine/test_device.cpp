@@ -30,10 +30,11 @@ struct TestDevice {
 
 enum Kind { kFull, kPooled, kMinimal, kKinds };
 std::array<std::unique_ptr<TestDevice>, kKinds> devices;
+bool shares_pipelines = true; // each test makes a world of its own, and lavapipe takes a second for the kernels of one
 
 engine::Device& deviceOf(Kind kind) {
     engine::DeviceOptions options;
-    options.share_pipelines = true; // each test makes a world of its own, and lavapipe takes a second for the kernels of one
+    options.share_pipelines = shares_pipelines;
     options.force_pooled_descriptors = kind == kPooled;
     options.minimal = kind == kMinimal;
     if (!devices[kind]) devices[kind] = std::make_unique<TestDevice>(options);
@@ -62,6 +63,8 @@ engine::Device& device() { return deviceOf(kFull); }
 engine::Device& pooledDevice() { return deviceOf(kPooled); }
 engine::Device& minimalDevice() { return deviceOf(kMinimal); }
 std::vector<engine::Device*> allDevices() { return {&device(), &pooledDevice(), &minimalDevice()}; }
+
+void keepPipelinesApart() { shares_pipelines = false; }
 
 void destroyDevices() {
     for (auto& made : devices)

@@ -21,6 +21,8 @@ engine::Device& pooledDevice();  // as if it had no push descriptors
 engine::Device& minimalDevice(); // nothing optional
 std::vector<engine::Device*> allDevices();
 void destroyDevices();
+// All kernel libraries of these devices share pipelines, unless a program calls this before it asks for a device.
+void keepPipelinesApart();
 
 // From the kernels of the engine's tests; ends the program where it cannot be made.
 const engine::Kernel& testKernel(engine::Device& device, std::string_view name, std::initializer_list<uint32_t> spec = {});

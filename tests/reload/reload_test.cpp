@@ -10,6 +10,9 @@ using namespace reload_test;
 
 namespace {
 
+// Tests of this program see a pipeline go with the last that uses it.
+[[maybe_unused]] const bool kPipelinesAreApart = (engine_test::keepPipelinesApart(), true);
+
 // The kernel `increment` of the engine's tests, in a folder where it is edited while it runs.
 class Reload : public SourceFolder {
 protected:
