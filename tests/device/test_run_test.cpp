@@ -50,6 +50,13 @@ TEST_F(TestRuns, ATestThatCrashesOrHangsCostsOnlyItself) {
     }
 }
 
+TEST_F(TestRuns, TestsThatThereWasNoTimeToListAreNoFailure) {
+    const TestRun result = run(std::chrono::milliseconds(-1), std::chrono::seconds(1), 1);
+    EXPECT_TRUE(result.tests.empty());
+    EXPECT_TRUE(result.isGood()) << result.problem;
+    EXPECT_FALSE(result.isComplete());
+}
+
 TEST_F(TestRuns, AFindingHasTheWordsOfTheTest) {
     const device_check::Json json = toJson(run(std::chrono::seconds(30), std::chrono::seconds(1), 1));
     ASSERT_EQ(json["findings"].size(), 3u) << json;

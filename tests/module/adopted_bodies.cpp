@@ -35,7 +35,7 @@ Matrix3d inertiaOf(const gpu::BodyState& state, const gpu::BodyShape& shape) {
     return axes * momentsOf(shape).asDiagonal() * axes.transpose();
 }
 
-// As a scene that begins broken has it.
+// The same bodies as the host makes them for a scene that begins broken.
 brittle::BodyDefinition definitionOf(const Scene& scene, const Part& part) {
     const Object& o = scene.objects[part.object];
     const Fragment& f = fragmentOf(scene, part);
@@ -80,12 +80,11 @@ void expectMotion(const Pair& p) {
     EXPECT_LE((placeOf(p.state()) - placeOf(p.wanted())).norm(), 1e-6 + 1e-6 * p.reach());
     for (const float x : {p.state().offset.x, p.state().offset.y, p.state().offset.z})
         EXPECT_TRUE(x >= -8 && x < 8);
-    // Of what is hundreds of meters wide and spins, the rim is at kilometers a second, of which floats hold 0.5 mm/s.
+    // The rim of a spinning body hundreds of meters wide moves at kilometers a second; floats hold that to 0.5 mm/s.
     const double diagonal = brittle::measureMesh(p.whole.model.prepared.mesh).diagonal,
                  rim = vec(p.wanted().spin).norm() * diagonal;
     EXPECT_LE((vec(p.state().velocity) - vec(p.wanted().velocity)).norm(), std::max(1e-4, 1e-7 * rim));
     EXPECT_EQ(vec(p.state().spin), vec(p.wanted().spin));
-    EXPECT_LE((vec(p.state().momentum) - vec(p.wanted().momentum)).norm(), 2e-6 * vec(p.wanted().momentum).norm());
     EXPECT_NEAR(vec(p.state().turn).squaredNorm() + std::pow(double{p.state().turn.w}, 2), 1, 1e-6);
     EXPECT_EQ(p.state().velocity.w, 0);
     EXPECT_EQ(p.state().sector.w & BODY_ASLEEP, 0);
@@ -94,6 +93,9 @@ void expectMotion(const Pair& p) {
 void expectInertia(const Pair& p) {
     const Matrix3d is = inertiaOf(p.state(), p.shape()), wanted = inertiaOf(p.wanted(), p.wantedShape());
     EXPECT_LE((is - wanted).norm(), 3e-6 * wanted.norm());
+    // A rod that spins about its length has little momentum for its largest moment, of which the error is a part.
+    const Vector3d spin = vec(p.state().spin);
+    EXPECT_LE((vec(p.state().momentum) - is * spin).norm(), 1.5e-6 * is.norm() * spin.norm());
     Vector3d moments = momentsOf(p.shape()), others = momentsOf(p.wantedShape());
     std::ranges::sort(moments);
     std::ranges::sort(others);

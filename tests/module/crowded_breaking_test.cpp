@@ -1,4 +1,5 @@
-// Fragments of fragments in a heap, where blows keep contacts from being solved and bodies have more contacts than there are colors.
+// Fragments of fragments in a heap, where blows keep contacts from being solved and bodies have more contacts than there are
+// colors.
 #include "tests/module/breaking_scenes.h"
 
 #include <gtest/gtest.h>
@@ -26,24 +27,29 @@ brittle::SceneDescription jarBetweenHammerAndSlab() {
     return scene;
 }
 
-// With two contacts of one body solved side by side it went elsewhere every other time.
+bool isCrowded(brittle::World& world) {
+    const auto counts = world.counts();
+    return counts && counts->broken > 20 && counts->contacts > 1000;
+}
+
+// With two contacts of one body solved side by side it went elsewhere every other time. When the crowd forms depends on the
+// device.
 TEST(CrowdedBreaking, GoesTheSameWayEveryTime) {
     const auto world = worldOf(jarBetweenHammerAndSlab());
-    step(*world, 13);
-    const auto state = world->save();
-    ASSERT_TRUE(state);
-    step(*world, 3);
+    step(*world, 10);
+    auto before = world->save();
+    for (int round = 0; round < 10 && !isCrowded(*world); ++round) {
+        before = world->save();
+        step(*world, 3);
+    }
+    ASSERT_TRUE(isCrowded(*world));
     const auto hash = world->hash();
-    ASSERT_TRUE(hash);
+    ASSERT_TRUE(before && hash);
     for (int again = 0; again < 4; ++again) {
-        ASSERT_TRUE(world->restore(*state));
+        ASSERT_TRUE(world->restore(*before));
         step(*world, 3);
         EXPECT_EQ(*world->hash(), *hash) << again;
     }
-    const auto counts = world->counts();
-    ASSERT_TRUE(counts);
-    EXPECT_GT(counts->broken, 20u);
-    EXPECT_GT(counts->contacts, 1000u);
 }
 
 } // namespace

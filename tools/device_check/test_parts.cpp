@@ -38,8 +38,7 @@ TestRunOptions optionsFor(const PartContext& context, const std::string& program
 
 // The worst of the two.
 void merge(Json& outcome, const TestRun& run) {
-    const bool unfinished = run.count(TestEnd::NotRun) > 0;
-    const std::string status = !run.isGood() ? "failed" : unfinished ? "stopped" : "passed";
+    const std::string status = !run.isGood() ? "failed" : run.isComplete() ? "passed" : "stopped";
     if (!outcome.contains("status") || status == "failed" || (status == "stopped" && outcome["status"] == "passed"))
         outcome["status"] = status;
 }
@@ -51,7 +50,9 @@ void addReason(Json& outcome) {
         left += run["not run"].get<size_t>();
     }
     if (failed > 0) outcome["reason"] = std::to_string(failed) + " tests failed";
-    if (failed == 0 && left > 0) outcome["reason"] = std::to_string(left) + " tests did not run in the time";
+    if (failed > 0 || outcome["status"] == "passed") return;
+    outcome["reason"] =
+        left > 0 ? std::to_string(left) + " tests did not run in the time" : "there was no time to list the tests";
 }
 
 struct Program {

@@ -112,6 +112,7 @@ void listTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
     const ChildEnd listed =
         runChild(kit.command(options.program, {"--gtest_list_tests", "--gtest_filter=" + options.filter}, options.until),
                  [&](std::string_view line) { lines.emplace_back(line); });
+    if (listed.kind == ChildEnd::Kind::OutOfTime) return; // a later run lists them
     if (!listed.isGood()) {
         run.problem = "the tests of " + options.program + " cannot be listed: " + listed.reason;
         return;
@@ -135,6 +136,8 @@ const char* nameOf(TestEnd end) {
 } // namespace
 
 size_t TestRun::count(TestEnd end) const { return static_cast<size_t>(std::ranges::count(tests, end, &TestOutcome::end)); }
+
+bool TestRun::isComplete() const { return !tests.empty() && count(TestEnd::NotRun) == 0; }
 
 bool TestRun::isGood() const {
     return problem.empty() && count(TestEnd::Failed) + count(TestEnd::Crashed) + count(TestEnd::Hung) == 0;

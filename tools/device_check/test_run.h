@@ -28,9 +28,10 @@ struct TestRunOptions {
 };
 
 struct TestRun {
-    std::vector<TestOutcome> tests; // in the program's order
+    std::vector<TestOutcome> tests; // in the program's order; none if there was no time to list them
     std::string problem;            // if the tests cannot be listed
 
+    bool isComplete() const; // the tests are listed and all of them have ended
     size_t count(TestEnd end) const;
     bool isGood() const; // nothing failed, crashed or hung; tests that did not run in time are no failure
 };

@@ -9,6 +9,8 @@ namespace {
 
 using std::chrono::duration;
 
+constexpr int kTooLarge = 3; // exit code of `brittle` for work that exceeds what the device can hold
+
 struct BenchRun {
     const char* name;
     double limit_s;
@@ -39,6 +41,7 @@ Json runBench(const PartContext& context, const BenchRun& run) {
                                   [&](std::string_view line) { text += std::string(line) + "\n"; });
     Json report = Json::parse(text, nullptr, /*allow_exceptions=*/false);
     if (end.isGood() && report.is_object()) return report;
+    if (end.kind == ChildEnd::Kind::Exited && end.code == kTooLarge) return {{"too_large_for_device", end.reason}};
     return {{"error", end.reason.empty() ? "no report" : end.reason}, {"out_of_time", end.kind == ChildEnd::Kind::OutOfTime}};
 }
 
