@@ -49,10 +49,12 @@ void addReason(Json& outcome) {
         failed += run["findings"].size() + (run.contains("problem") ? 1 : 0);
         left += run["not run"].get<size_t>();
     }
-    if (failed > 0) outcome["reason"] = std::to_string(failed) + " tests failed";
-    if (failed > 0 || outcome["status"] == "passed") return;
-    outcome["reason"] =
-        left > 0 ? std::to_string(left) + " tests did not run in the time" : "there was no time to list the tests";
+    if (failed > 0)
+        outcome["reason"] = std::to_string(failed) + " tests failed";
+    else if (left > 0)
+        outcome["reason"] = std::to_string(left) + " tests did not run in the time";
+    else if (outcome["status"] != "passed")
+        outcome["reason"] = "there was no time to list the tests";
 }
 
 struct Program {

@@ -1,4 +1,5 @@
 // Parts that measure times.
+#include "tools/brittle/command.h"
 #include "tools/device_check/cached_start.h"
 #include "tools/device_check/check_parts.h"
 
@@ -8,8 +9,6 @@ namespace device_check {
 namespace {
 
 using std::chrono::duration;
-
-constexpr int kTooLarge = 3; // exit code of `brittle` for work that exceeds what the device can hold
 
 struct BenchRun {
     const char* name;
@@ -41,7 +40,7 @@ Json runBench(const PartContext& context, const BenchRun& run) {
                                   [&](std::string_view line) { text += std::string(line) + "\n"; });
     Json report = Json::parse(text, nullptr, /*allow_exceptions=*/false);
     if (end.isGood() && report.is_object()) return report;
-    if (end.kind == ChildEnd::Kind::Exited && end.code == kTooLarge) return {{"too_large_for_device", end.reason}};
+    if (end.kind == ChildEnd::Kind::Exited && end.code == cli::kCapacity) return {{"too_large_for_device", end.reason}};
     return {{"error", end.reason.empty() ? "no report" : end.reason}, {"out_of_time", end.kind == ChildEnd::Kind::OutOfTime}};
 }
 
