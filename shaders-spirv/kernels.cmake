@@ -175,16 +175,14 @@ foreach(name IN ITEMS return_ranges take_ranges)
 endforeach()
 
 # Dynamics.
-foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts keep_pair_count begin_step color_contacts open_step begin_islands join_islands settle_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
-        order_adjacency order_islands prepare_contacts push_bodies solve_contacts solve_rest move_bodies keep_impulses hold_back end_step)
+foreach(name IN ITEMS bound_pieces list_fresh recall_contacts remember_contacts keep_pair_count begin_step color_contacts open_step join_islands settle_islands time_islands wake_contacts lull_bodies time_rest count_adjacency place_adjacency
+        order_adjacency order_islands prepare_contacts push_bodies solve_contacts solve_rest solve_islands move_bodies keep_impulses hold_back end_step)
     kernel(solver/${name}.comp)
 endforeach()
 kernel(solver/solve_contacts.comp NAME bounce_contacts DEFINES BOUNCE=1)
-kernel(solver/color_contacts.comp NAME color_islands DEFINES ISLANDS=1)
 kernel(solver/solve_rest.comp NAME bounce_rest DEFINES BOUNCE=1)
-kernel(solver/solve_rest.comp NAME solve_islands DEFINES ISLANDS=1)
-kernel(solver/solve_rest.comp NAME bounce_islands DEFINES ISLANDS=1 BOUNCE=1)
-kernel(solver/solve_rest.comp NAME solve_islands_wide DEFINES LANES=64u ISLANDS=1)
-kernel(solver/solve_rest.comp NAME bounce_islands_wide DEFINES LANES=64u ISLANDS=1 BOUNCE=1)
-kernel(solver/solve_rest.comp NAME solve_rest_wide DEFINES LANES=64u)
 kernel(solver/solve_rest.comp NAME bounce_rest_wide DEFINES LANES=64u BOUNCE=1)
+kernel(solver/solve_islands.comp NAME solve_islands_wide DEFINES LANES=64u)
+kernel(solver/solve_islands.comp NAME bounce_islands DEFINES BOUNCE=1)
+kernel(solver/solve_islands.comp NAME bounce_islands_wide DEFINES LANES=64u BOUNCE=1)
+kernel(solver/solve_rest.comp NAME solve_rest_wide DEFINES LANES=64u)

@@ -2,7 +2,7 @@
 # without the rest of the tests.
 set(measures
     hard/compared_scenes hard/hard_case hard/hard_fractures hard/hard_meshes hard/hard_scenes hard/hard_sites hard/hard_worlds hard/moving_scenes
-    hard/refusing_scenes hard/resting_scenes
+    hard/long_motions hard/refusing_scenes hard/resting_scenes
     reference/big_int reference/boxes reference/clipped_cells reference/contract reference/convex reference/geometry
     reference/predicates reference/rigid_motion reference/rigid_stack reference/soft_contact reference/voronoi
     support/body_overlaps support/fragment_file support/measured_scene support/stacked_boxes)

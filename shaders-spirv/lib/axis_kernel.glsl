@@ -72,9 +72,10 @@ bool isMiss(Seen seen, vec3 axis) {
     return is_known && !isHit(seen) && seen.separation + dot(axis, pair.motion) < 0.0;
 }
 
-// B's best instead of A's where it is better for certain, in both respects; what either has seen counts for leaving.
-Seen betterOf(Seen a, Seen b) {
-    bool is_wider = b.separation > a.separation + tie;
+// B's best instead of A's where its separation is larger by more than `wider`, and where it is later for certain; what either has
+// seen counts for leaving.
+Seen betterOf(Seen a, Seen b, float wider) {
+    bool is_wider = b.separation > a.separation + wider;
     bool is_later = a.enter == -kFar || (b.enter - a.enter) * length(pair.motion) > tie;
     return Seen(is_wider ? b.separation : a.separation, is_wider ? b.feature : a.feature, is_later ? b.enter : a.enter,
                 is_later ? b.enter_feature : a.enter_feature, min(a.leave, b.leave), kFar);

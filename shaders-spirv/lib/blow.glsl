@@ -1,7 +1,11 @@
-// Whether any point of a contact was hit in the last substep, so that its impulses are no guess for this one. Wants
+// Whether any point of a contact was hit in the last substep: what it was rubbed with says nothing about this one. Wants
 // `solver_contacts` declared.
+#ifndef BLOW_GLSL
+#define BLOW_GLSL
 bool isBlow(uint c, uint points) {
     bool blow = false;
-    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) blow = blow || solver_contacts[c].points[k].pulse.w != 0.0;
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
+        blow = blow || (k < points && solver_contacts[c].points[k].pulse.w >= POINT_HIT);
     return blow;
 }
+#endif

@@ -1,10 +1,10 @@
 // Axes that are cross products of an edge of A and an edge of B.
 //
 // Two edges give a face of B - A where the arcs that they are on the Gauss sphere cross; four signs tell. The arcs of a flat hull
-// are half circles, for which the same four signs hold. Only edges that lie near the other hull can do: the axis that decides
-// touches both hulls at points no further apart than the smallest depth or gap known, so edges that end further than that below
-// the top of A, or above the bottom of B, along any one axis, are left out. On a face that rests on another this leaves the
-// edges around the two.
+// are half circles, for which the same four signs hold. Only edges that lie near the other hull can do. The axis that decides
+// touches both hulls at points no further apart than the smallest depth or gap known. Hulls that meet in this step touch at points
+// no further apart, along any one axis, than they come closer along it. Edges that end further than that below the top of A, or
+// above the bottom of B, are left out. On a face that rests on another this leaves the edges around the two.
 #ifndef EDGE_AXES_GLSL
 #define EDGE_AXES_GLSL
 

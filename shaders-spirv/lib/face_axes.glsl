@@ -28,25 +28,37 @@ bool leavesPlane(vec3 axis) {
     return pair.planes == 0u || up > 0.5;
 }
 
-// Lanes without a face look at the last one again, so that all turn alike.
-Seen seeFaces(bool of_a) {
-    uint first = of_a ? pair.hull[0].first.y : pair.hull[1].first.y, count = of_a ? face_counts.x : face_counts.y;
+struct FaceAlong {
+    vec3 axis;      // from A to B
+    float towards;  // of the other hull's center along the axis
+    float height;   // of the face above its own
+    float separation;
+};
+
+FaceAlong alongFace(bool of_a, uint face) {
     uvec2 range = of_a ? uvec2(pair.hull[1].first.x, corner_counts.y) : uvec2(pair.hull[0].first.x, corner_counts.x);
     vec3 center = of_a ? pair.hull[0].center.xyz : pair.hull[1].center.xyz;
     vec3 other_center = of_a ? pair.hull[1].center.xyz : pair.hull[0].center.xyz;
+    vec4 plane = hull_faces[(of_a ? pair.hull[0].first.y : pair.hull[1].first.y) + face].plane;
+    vec3 n = of_a ? plane.xyz : pair.axes[1] * plane.xyz;
+    float height = plane.w - dot(plane.xyz, center);
+    float lowest = lowestCorner(range, other_center, of_a ? plane.xyz * pair.axes[1] : n);
+    vec3 axis = of_a ? n : -n;
+    float towards = dot(axis, pair.place[1]);
+    return FaceAlong(axis, towards, height, lowest + towards - height);
+}
+
+uint featureOf(bool of_a, uint face) { return ((of_a ? AXIS_FACE_A : AXIS_FACE_B) << AXIS_KIND_SHIFT) | face; }
+
+// Lanes without a face look at the last one again, so that all turn alike.
+Seen seeFaces(bool of_a) {
+    uint count = of_a ? face_counts.x : face_counts.y;
     Seen seen = seenNothing();
     for (uint base = 0u; base < count; base += LANES) {
         uint f = min(base + lane, count - 1u);
-        vec4 plane = hull_faces[first + f].plane;
-        vec3 n = of_a ? plane.xyz : pair.axes[1] * plane.xyz;
-        float height = plane.w - dot(plane.xyz, center);
-        float lowest = lowestCorner(range, other_center, of_a ? plane.xyz * pair.axes[1] : n);
-        vec3 axis = of_a ? n : -n;
-        float towards = dot(axis, pair.place[1]);
-        uint kind = of_a ? AXIS_FACE_A : AXIS_FACE_B;
-        bool counts = leavesPlane(axis);
-        if (counts) see(seen, lowest + towards - height, dot(axis, pair.motion), 0.0, (kind << AXIS_KIND_SHIFT) | f);
-        if (towards > 0.0) seen.reach = min(seen.reach, max(height, 0.0) / towards);
+        FaceAlong along = alongFace(of_a, f);
+        if (leavesPlane(along.axis)) see(seen, along.separation, dot(along.axis, pair.motion), 0.0, featureOf(of_a, f));
+        if (along.towards > 0.0) seen.reach = min(seen.reach, max(along.height, 0.0) / along.towards);
     }
     return seenByAll(seen);
 }

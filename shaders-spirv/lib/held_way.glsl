@@ -15,11 +15,18 @@ float thicknessOf(BodyShape shape) { return max(uintBitsToFloat(shape.pieces.z),
 
 vec3 wayAhead(vec3 velocity, vec4 gravity) { return gravity.w * (velocity + gravity.w * gravity.xyz); }
 
+// What lies on a floor does not fall as far as the way ahead has it: that is no way aside.
+vec3 heldUp(vec3 aside, vec4 gravity) {
+    vec3 fall = gravity.w * gravity.w * gravity.xyz;
+    float share = clamp(-dot(aside, fall) / max(dot(fall, fall), 1e-37), 0.0, 1.0);
+    return aside + share * fall;
+}
+
 // `gravity.w`: length of the step.
 float shareOfWay(vec3 moved, vec3 velocity, vec4 gravity, float thickness) {
     vec3 ahead = wayAhead(velocity, gravity);
     float along = clamp(dot(moved, ahead) / max(dot(ahead, ahead), 1e-37), 0.0, SWEEP_AHEAD);
-    float aside = length(moved - along * ahead);
+    float aside = length(heldUp(moved - along * ahead, gravity));
     return aside > thickness ? thickness / aside : 1.0;
 }
 

@@ -13,7 +13,8 @@ struct HullPair {
     mat3 axes[2];    // own axes to the frame's
     vec3 place[2];   // of the hull's center
     vec4 turn;       // the frame's axes to the world's
-    vec3 motion;     // of B relative to A over the step
+    vec3 motion;     // of B relative to A over the step, as far as it is swept
+    vec3 drift;      // of B relative to A in a step, before anything falls
     vec3 turning[2]; // rad, of both over the step, where that moves points by more than the margin
     float turned_by; // rad, by both together, wherever that moves points
     float smaller;   // of the two radii
@@ -44,7 +45,8 @@ void loadPlaces(inout HullPair pair, float duration, vec3 gravity) {
     vec3 up = (pair.planes & 2u) != 0u ? pair.axes[1][1] : vec3(0.0, 1.0, 0.0);
     if (pair.planes != 0u) pair.place[1] = dot(up, pair.place[1]) * up;
     vec3 falling = gravity * ((b.offset.w > 0.0 ? 1.0 : 0.0) - (a.offset.w > 0.0 ? 1.0 : 0.0));
-    pair.motion = turned(back, b.velocity.xyz - a.velocity.xyz + duration * falling);
+    pair.drift = turned(back, b.velocity.xyz - a.velocity.xyz);
+    pair.motion = pair.drift + duration * turned(back, falling);
     pair.turning[0] = turned(back, duration * a.spin.xyz);
     pair.turning[1] = turned(back, duration * b.spin.xyz);
 }
@@ -85,6 +87,7 @@ HullPair loadPair(uvec2 of, NarrowPhasePush push) {
     pair.hull[1] = hulls[b.x];
     loadPlaces(pair, push.duration, push.gravity.xyz);
     pair.motion *= push.duration;
+    pair.drift *= push.step;
     float radius_a = pair.hull[0].center.w, radius_b = pair.hull[1].center.w;
     pair.smaller = min(radius_a, radius_b);
     pair.rounding = kRounding * (radius_a + radius_b);

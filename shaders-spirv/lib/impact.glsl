@@ -11,7 +11,7 @@ struct Impact {
 // Each of them alone; what lies there is pressed as well, but comes in with no speed. What was braked in the last substep of the step
 // before, so that it comes to lie in this one's first, has been told of then.
 bool isHit(SolverPoint p, float carried, float least_speed) {
-    return p.pulse.y > 0.0 && p.pulse.z < -least_speed && carried != float(HIT_LAST);
+    return p.pulse.y > 0.0 && p.pulse.z < -least_speed && carried != HIT_LAST;
 }
 
 Impact impactOf(uint c, float least_speed) {

@@ -7,7 +7,7 @@ uint islandOf(uint c) {
     return islands[moves(ids.x) ? ids.x : ids.y];
 }
 
-bool isSmall(uint contacts) { return contacts <= FEW_CONTACTS; }
+bool isSmall(uint contacts) { return contacts <= few_contacts; }
 
 // How many contacts each island has, and a list of those that have any, in `waiting`.
 void countIslands(uint lane, uint total) {

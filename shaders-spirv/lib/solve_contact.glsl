@@ -12,23 +12,14 @@
 // Effective masses are those of the beginning of the step while bodies have hardly turned or slid since. A rod that a blow has set
 // spinning yields a hundred times as much in the next substep: an impulse that goes by what it was would add energy without end.
 //
-// Wants `solver_bodies` and `solver_contacts` declared. Its push constants are those of SolverPush.
+// Wants `solver_bodies` and `solver_contacts` declared, and `gravity`, `soft`, `stiff`, `with_push` as in SolverPush. `rubs_in_push`:
+// friction acts in the push, too. It lets heaps settle; heavy bodies on light ones would rock.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
 #include "lib/blow.glsl"
 #include "lib/effect.glsl"
 
 FRICTION_EFFECT;
-
-layout(push_constant) uniform Push {
-    vec4 gravity;
-    vec4 soft;
-    vec4 stiff;
-    uint color;
-    uint with_push;
-    uint first_substep;
-    uint pad;
-};
 
 struct Touching {
     Moving a, b;
@@ -59,12 +50,15 @@ mat4 pressOf(uint c) {
     return mat4(solver_contacts[c].press[0], solver_contacts[c].press[1], solver_contacts[c].press[2], solver_contacts[c].press[3]);
 }
 
+bool pushesNow() { return with_push == PUSH_FIRST || with_push == PUSH_AGAIN; }
+
 // What a point that is so far apart asks for: the speed that it may close with or is pushed with, and the shares of mass and
-// impulse that count. A point that presses is pushed to where it touches, from either side, and stands still without push: if it
+// impulse that count. A point that pressed before is pushed to where it touches, from either side, and stands still without push: if it
 // closed a hair of a gap at once, a body that is jammed in would be thrown there in one substep and back in the next.
-vec3 demandOf(float separation, float pulse, vec4 spring) {
-    if (separation > 0.0 && pulse == 0.0) return vec3(separation / gravity.w, 1.0, 0.0);
-    return with_push != 0u ? vec3(max(spring.x * separation, -spring.w), spring.yz) : vec3(0.0, 1.0, 0.0);
+vec3 demandOf(float separation, vec4 pulse, vec4 spring) {
+    bool is_free = pulse.w == POINT_FREE || pulse.w == POINT_FREE + POINT_HIT;
+    if (separation > 0.0 && (pulse.x == 0.0 || is_free)) return vec3(separation / gravity.w, 1.0, 0.0);
+    return pushesNow() ? vec3(max(spring.x * separation, -spring.w), spring.yz) : vec3(0.0, 1.0, 0.0);
 }
 
 float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
@@ -87,11 +81,17 @@ void solvePoint(inout SolverPoint p, float load, vec3 demand, vec3 normal, inout
     p.pulse.y = max(p.pulse.y, total);
 }
 
-// A blow says nothing about what comes after it: its impulse is forgotten where the next substep begins (push_bodies).
+float freedomOf(SolverPoint p) { return p.pulse.x == 0.0 ? POINT_FREE : POINT_PRESSED; }
+
+// What a point was hit with is no guess for the next substep: applied again there, it would add energy to bodies that turn fast.
 void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
-    if (with_push != PUSH_FIRST) return;
-    p.pulse.x = p.pulse.w != 0.0 ? 0.0 : p.pulse.x;
-    p.pulse.w = speedAt(p, normal, t) < -stiff.w ? 1.0 : 0.0;
+    p.pulse.x = p.pulse.w >= POINT_HIT ? 0.0 : p.pulse.x;
+    p.pulse.w = freedomOf(p) + (speedAt(p, normal, t) < -BLOW_SPEED ? POINT_HIT : 0.0);
+}
+
+void notePoint(inout SolverPoint p, vec3 normal, Touching t) {
+    if (with_push == PUSH_FIRST) noteBlow(p, normal, t);
+    if (with_push == RELAX_FIRST) p.pulse.w = freedomOf(p) + (p.pulse.w >= POINT_HIT ? POINT_HIT : 0.0);
 }
 
 const float kNoPull = 1e-3; // of what all points are pressed with: less is rounding, where impulses are to come to nothing
@@ -125,8 +125,8 @@ void pressContact(uint c, vec3 normal, uint points, vec4 spring, inout Touching 
     vec3 demands[MANIFOLD_POINTS];
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         p[k] = solver_contacts[c].points[k];
-        noteBlow(p[k], normal, t);
-        demands[k] = demandOf(separationOf(p[k], t, normal), p[k].pulse.x, spring);
+        notePoint(p[k], normal, t);
+        demands[k] = demandOf(separationOf(p[k], t, normal), p[k].pulse, spring);
     }
     solveTogether(c, p, demands, points, normal, t);
     vec4 loads = solver_contacts[c].loads;
@@ -164,11 +164,10 @@ void resistSliding(inout vec4 rub, uint c, vec3 normal, float most, inout Touchi
     rub.xy = total;
 }
 
-// `after_blow`: what the blow was rubbed with was forgotten with it, and is no more to be taken back.
-void rubContact(uint c, vec4 normal, uint points, bool after_blow, inout Touching t) {
+void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
     float pressed = 0.0;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) pressed += solver_contacts[c].points[k].pulse.x;
-    vec4 rub = after_blow ? vec4(0.0) : solver_contacts[c].rub;
+    vec4 rub = solver_contacts[c].rub;
     float most = normal.w * pressed;
     float yield_ = dot(normal.xyz, spinBy(t.a, normal.xyz) + spinBy(t.b, normal.xyz));
     float twist_mass = t.rubs_anew ? inverseOf(yield_) : solver_contacts[c].center_a.w;
@@ -217,9 +216,10 @@ void solveContact(uint c) {
     vec4 normal = solver_contacts[c].normal;
     Touching t = touchingOf(c, ids, normal.xyz);
     vec4 limits = solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft;
-    bool after_blow = with_push == PUSH_FIRST && isBlow(c, ids.z); // of the substep before
+    bool after_blow = with_push == PUSH_FIRST && isBlow(c, ids.z); // in the last substep
     pressContact(c, normal.xyz, ids.z, limits, t);
-    if (kFriction != 0u) rubContact(c, normal, ids.z, after_blow, t);
+    if (kFriction != 0u && after_blow) solver_contacts[c].rub.xyz = vec3(0.0);
+    if (kFriction != 0u && (!pushesNow() || rubs_in_push)) rubContact(c, normal, ids.z, t);
     keepMotion(ids.x, t.a);
     keepMotion(ids.y, t.b);
 }

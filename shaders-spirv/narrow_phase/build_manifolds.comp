@@ -91,7 +91,8 @@ void gatherCandidates() {
     candidate_count = 0u;
     addIncidentEdges();
     addReferenceCorners(vec3(dot(plane.u, n), dot(plane.v, n), dot(plane.n, n)));
-    if (is_swept || found.axis.w <= 0.0) addLowest(found.axis.w);
+    bool grazes = (found.info.x & uint(AXIS_GRAZES)) != 0u; // what is beside the face does not touch it
+    if (!grazes && (is_swept || found.axis.w <= 0.0)) addLowest(found.axis.w);
 }
 
 Touch touchAt(uint candidate) {

@@ -9,6 +9,8 @@
 #include "lib/kernel.glsl"
 #include "lib/axis_kernel.glsl"
 #include "lib/edge_axes.glsl"
+#include "lib/graze.glsl"
+#include "shared/sweep.h"
 
 const uint kAttempts = 3u;
 
@@ -51,10 +53,11 @@ Seen withEdges(Seen faces, bool wanted) {
     for (uint attempt = 0u; attempt < ROLLED(kAttempts) && open; attempt++) {
         Seen edges = seeEdges(limit, open);
         limit = edges;
-        Seen both = betterOf(faces, edges);
+        float lead = leadOver(faceAxis(faces.feature), edge_axis);
+        Seen both = betterOf(faces, edges, lead);
         bool takes_edges = isHit(both) ? both.enter_feature == edges.enter_feature : both.feature == edges.feature;
         bool kept = holds(edges) || !takes_edges;
-        if (kept) best = takes_edges ? betterOf(faces, edges) : both;
+        if (kept) best = takes_edges ? betterOf(faces, edges, lead) : both;
         open = !kept;
     }
     return best;
@@ -68,32 +71,40 @@ Seen searchAll() {
         if (side == 0u) a = seen;
         else b = seen;
     }
-    Seen faces = betterOf(a, b);
-    vec4 heights = measureAlong(faceAxis(faces.feature));
-    float depth = (is_fast ? kFar : max(-faces.separation, gapOf(a, b))) + tie;
+    float lead = leadOver(faceAxis(a.feature), faceAxis(b.feature));
+    Seen faces = betterOf(a, b, floor_side == 2u && lead > tie ? -lead : lead);
+    vec3 axis = faceAxis(faces.feature);
+    vec4 heights = measureAlong(axis);
+    float depth = max(max(-faces.separation, gapOf(a, b)), -dot(axis, pair.motion)) + tie;
     bool wanted = !isApart(faces) && pair.planes == 0u;
     listNearEdges(heights.z - depth, heights.y + depth, wanted);
     return withEdges(faces, wanted);
 }
 
-AxisRecord foundBy(Seen seen) {
-    bool is_hit = isHit(seen);
-    uint feature = is_hit ? seen.enter_feature : seen.feature, kind = feature >> AXIS_KIND_SHIFT;
-    vec3 axis = kind == AXIS_EDGES ? edge_axis : faceAxis(feature);
+vec3 axisOf(uint feature) { return feature >> AXIS_KIND_SHIFT == AXIS_EDGES ? edge_axis : faceAxis(feature); }
+
+AxisRecord foundBy(uint feature, vec3 shift) {
+    vec3 axis = axisOf(feature);
     vec4 heights = measureAlong(axis);
-    bool b_leads = kind == AXIS_FACE_B;
+    bool b_leads = feature >> AXIS_KIND_SHIFT == AXIS_FACE_B;
     Seen facing = facingFace(b_leads, axis, b_leads ? heights.y : -heights.z);
-    return recordOf(feature, axis, heights, is_hit ? seen.enter * pair.motion : vec3(0.0), b_leads,
-                    uvec2(feature & 0xffu, facing.feature));
+    return recordOf(feature, axis, heights, shift, b_leads, uvec2(feature & 0xffu, facing.feature));
 }
 
 void main() {
     uint k = flatGroup();
     if (k >= min(counts[push.count_at], push.capacity) || isKnown(k)) return;
     loadHulls(k);
+    findFloor();
     Seen seen = searchAll();
+    bool is_hit = isHit(seen), is_apart = isApart(seen);
+    uint feature = is_hit ? seen.enter_feature : seen.feature;
+    vec3 shift = is_hit ? seen.enter * pair.motion : vec3(0.0);
+    float steps = is_hit ? seen.enter * float(SWEEP_AHEAD) : 0.0;
+    uint grazed = grazedFace(axisOf(feature), steps, !is_apart);
+    bool grazes = grazed != NO_INDEX;
     AxisRecord record = apartBy(seen.separation);
-    if (!isApart(seen)) record = foundBy(seen);
-    if (isMiss(seen, record.axis.xyz)) record = apartBy(seen.separation);
+    if (!is_apart) record = foundBy(grazes ? grazed | AXIS_GRAZES : feature, grazes ? vec3(0.0) : shift);
+    if (!grazes && isMiss(seen, record.axis.xyz)) record = apartBy(seen.separation);
     if (lane == 0u) axis_records[k] = record;
 }

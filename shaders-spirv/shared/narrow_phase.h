@@ -13,6 +13,7 @@ GPU_NAMESPACE_BEGIN
 #define AXIS_EDGES 3u
 #define AXIS_FIXED 4u
 #define AXIS_KIND_SHIFT 24u
+#define AXIS_GRAZES 0x10000u     /* of a face: along it the hulls overlap by a thin strip only (lib/graze.glsl) */
 #define AXIS_UNKNOWN 0xffffffffu /* a feature: nobody has found the axis yet */
 
 // The axis along which a pair touches, in the frame of A: its body's axes, from the center of A's hull.
@@ -29,7 +30,9 @@ struct NarrowPhasePush {
     uint capacity;     // pairs
     uint count_at;     // the word of the counts that says how many there are
     uint fixed_axes;   // directions, of find_fixed_axes
-    uint unused[3];
+    float step;        // s
+    float strip;       // m: hulls that overlap by less graze each other; 0: none do
+    uint unused;
 };
 
 GPU_NAMESPACE_END

@@ -5,10 +5,9 @@
 // of what overlaps, bodies move, and contacts are solved once more without the push, so that it leaves no energy behind.
 // Contacts that share a moving body have different colors; those of one color are solved side by side.
 //
-// A soft contact gives way under a load as a spring does, which is what keeps piles calm: a hundred times the weight of a cube of
-// a meter pushes it in by 28 mm. So each point follows, slowly, what it carries, and only what exceeds most of that (LOAD_CARRIED)
-// makes it give way. Not all of it, or what bodies that are wedged press each other with would never die away; not at once
-// (LOAD_FOLLOWED), or stacks would shake themselves down.
+// A soft contact gives way under a load: contacts of a stack of n cubes with the edge e by g n^2 / (e hertz^2) of an edge
+// together, and stiffness must stay below an eighth of the substeps a second. So an island takes as many substeps as its loads,
+// sizes and height call for (lib/pace.glsl), if one workgroup can walk through it; others take those of the settings.
 #ifndef SOLVER_H
 #define SOLVER_H
 
@@ -19,17 +18,20 @@
 GPU_NAMESPACE_BEGIN
 
 // Indices into the counts of dynamics, beyond those of the broad phase; laid out like those of a fracture event (fracture.h).
-#define COUNT_CONTACTS 8      /* pairs with contact points */
-#define COUNT_FRESH_PAIRS 12  /* whose points are to be found anew */
-#define COUNT_FIRST_COLOR 16  /* then one for each of the wide colors */
-#define COUNT_BODIES 24       /* of the world; none while all sleep */
-#define COUNT_ONCE 25         /* 1; 0 while all sleep */
-#define COUNT_AWAKE 26        /* bodies that move and do not sleep */
-#define COUNT_SWIFT 27        /* contacts, where any body is fast for its size, else 0 */
-#define COUNT_SOLVED_APART 28 /* workgroups that walk through contacts: one for every small island, one for what goes by color, if anything does */
-#define COUNT_BLOWS 29        /* contacts that break something in this step */
-#define COUNT_STRUCK 30       /* pairs, where there is such a contact, else 0 */
-#define COUNT_TURNING 32      /* contacts that may, of bodies that turn on the way to each other */
+#define COUNT_CONTACTS 8     /* pairs with contact points */
+#define COUNT_FRESH_PAIRS 12 /* whose points are to be found anew */
+#define COUNT_BY_COLOR 13    /* 1 where contacts are solved color by color, those of large islands; else 0 */
+#define COUNT_FIRST_COLOR 16 /* then one for each of the wide colors */
+#define COUNT_BODIES 24      /* of the world; none while all sleep */
+#define COUNT_ONCE 25        /* 1; 0 while all sleep */
+#define COUNT_AWAKE 26       /* bodies that move and do not sleep */
+#define COUNT_SWIFT 27       /* contacts, where any body is fast for its size, else 0 */
+#define COUNT_SOLVED_APART                                                                                                     \
+    28 /* workgroups that walk through contacts: one for every small island, one for what goes by color, if anything does */
+#define COUNT_BLOWS 29      /* contacts that break something in this step */
+#define COUNT_STRUCK 30     /* pairs, where there is such a contact, else 0 */
+#define COUNT_UNFINISHED 31 /* workgroups of small islands, where one of them needs another dispatch, else 0; only in args */
+#define COUNT_TURNING 32    /* contacts that may, of bodies that turn on the way to each other */
 
 // A bit of STATUS_FAILED: islands could not be joined.
 #define FAILED_ISLANDS 16u
@@ -62,14 +64,29 @@ GPU_NAMESPACE_BEGIN
 // With no more contacts than this, of the world or of an island, one workgroup walks through all colors: its barriers cost less
 // than dispatches.
 #define FEW_CONTACTS 1024
+// Dispatches of a step of small islands, where a lane may take few turns (lib/pace.glsl), by the soft solver and the hard one.
+#define ISLAND_PARTS 8
+#define ISLAND_PARTS_HARD 16
 
-// The first pass of a substep notes blows; what is pressed in it is no blow to the passes after.
+// What comes in faster is a blow: its impulse is forgotten in the next substep.
+#define BLOW_SPEED 1.0 /* m/s */
+
+// Sweeps over contacts: while overlap is pushed out, and without. The first one of each kind notes how points are; the first of
+// a substep notes blows, too: what is pressed in it is no blow to the sweeps after.
+#define RELAX_FIRST 0
 #define PUSH_FIRST 1
 #define PUSH_AGAIN 2
+#define RELAX_AGAIN 3
 
-#define HIT_LAST -1 /* what carries nothing, having been hit in the last substep: it may still be on its way in */
+// What a point has carried of late counts as carried, in large islands and heaps: only what exceeds most of it makes it give way.
+// Stacks would sway by it: small islands that are no heaps take more substeps instead, and do without.
 #define LOAD_CARRIED 0.75
 #define LOAD_FOLLOWED 0.2 /* of the difference, a step */
+// Of a point: whether it pressed when sweeps of this kind began, and whether a blow came in this substep.
+#define POINT_PRESSED 0.0
+#define POINT_FREE 1.0
+#define POINT_HIT 2.0 /* added to the others */
+#define HIT_LAST -1.0 /* instead of a load: the point was hit in the last substep */
 
 // Impulses meet both bodies of a contact at one point (lib/solve_contact.glsl): whose arms follow the other's.
 #define ARMS_OF_A_FOLLOW 0
@@ -88,32 +105,35 @@ struct SolverBody {
 struct SolverPoint {
     vec4 arm_a; // of the same point when the step began, if one follows the other; w: separation at the beginning of the step
     vec4 arm_b; // w: effective mass along the normal
-    vec4 pulse; // impulse, the greatest of the step, speed of separation at the moment they meet, 1 after a blow
+    vec4 pulse; // impulse, the greatest of the step, speed of separation at the moment they meet, POINT_*
 };
 
 // A contact while it is solved, in the order of colors.
 struct SolverContact {
-    uvec4 ids;      // body a, body b, points, where it is remembered
-    vec4 normal;    // from A to B; w: friction
-    vec4 tangent;   // w: restitution
-    vec4 center_a;  // mean of the arms; w: effective mass against twisting
-    vec4 center_b;  // w: mean distance of the points from their center
-    vec4 rub;       // impulses along the tangent, across it, of twisting; w: unused
-    vec4 loads;     // of the points: what of their impulse does not make them give way
-    vec4 rub_mass;  // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
+    uvec4 ids;                   // body a, body b, points, where it is remembered
+    vec4 normal;                 // from A to B; w: friction
+    vec4 tangent;                // w: restitution
+    vec4 center_a;               // mean of the arms; w: effective mass against twisting
+    vec4 center_b;               // w: mean distance of the points from their center
+    vec4 rub;                    // impulses along the tangent, across it, of twisting; w: unused
+    vec4 rub_mass;               // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
+    vec4 loads;                  // of the points: what of their impulse does not make them give way
+    uvec4 pace;                  // substeps of its last step, 0 if it is new; of this one
     vec4 press[MANIFOLD_POINTS]; // effective mass of all points together along the normal: a symmetric matrix
     SolverPoint points[MANIFOLD_POINTS];
 };
 
 // A contact from step to step, one for every pair of the broad phase.
 struct ContactMemory {
-    uvec4 ids;     // body a, body b, points, color
-    vec4 normal;   // w: friction
-    vec4 tangent;  // w: restitution
-    vec4 rub;      // as in SolverContact; w: whose arms follow, where both bodies move: ARMS_OF_*_FOLLOW
-    vec4 turn_a;   // of the bodies when the points were found
+    uvec4 ids;    // body a, body b, points, color
+    vec4 normal;  // w: friction
+    vec4 tangent; // w: restitution
+    vec4 rub;     // as in SolverContact; w: whose arms follow, where both bodies move: ARMS_OF_*_FOLLOW
+    vec4 turn_a;  // of the bodies when the points were found
     vec4 turn_b;
-    vec4 place;    // of B's center of mass then, from A's, own axes of A; w: of a pair without points, how far the hulls were apart at the least
+    uvec4 pace; // substeps of the step that it was last solved in; 0 if it was not
+    vec4 place; // of B's center of mass then, from A's, own axes of A; w: of a pair without points, how far the hulls were
+                // apart at the least
     vec4 anchor_a[MANIFOLD_POINTS]; // own axes of A; w: impulse
     vec4 anchor_b[MANIFOLD_POINTS]; // own axes of B; w: feature, as bits
     vec4 arm_a[MANIFOLD_POINTS];    // world axes, when the points were found; w: separation then
@@ -121,19 +141,34 @@ struct ContactMemory {
 };
 
 struct SolverPush {
-    vec4 gravity;     // w: length of a substep, s
-    vec4 soft;        // of two bodies that move: push per overlap, 1/s; share of the mass; share of the impulse; most push, m/s
-    vec4 stiff;       // the same where one does not move; w: least speed that bounces, m/s
-    uint color;       // the color, or the first of the rest
-    uint with_push;   // 0, or, while overlap is pushed out, PUSH_*
+    vec4 gravity;   // w: length of a substep, s
+    vec4 soft;      // of two bodies that move: push per overlap, 1/s; share of the mass; share of the impulse; most push, m/s
+    vec4 stiff;     // the same where one does not move; w: least speed that bounces, m/s
+    uint color;     // the color, or the first of the rest
+    uint with_push; // PUSH_* or RELAX_*
     uint first_substep; // of its step: 1
-    uint pad;
+    uint substeps;      // of a step, at the least
+};
+
+// For small islands, whose substeps the device chooses.
+struct PacePush {
+    vec4 gravity;         // w: length of the step, s
+    float hertz, damping; // of the spring between bodies that move, with `substeps`
+    float push_out;       // m/s, the most that overlap is pushed out with
+    float least_bounce;   // m/s
+    uint substeps;        // at the least
+    uint most_substeps;
+    uint iterations;
+    uint part, parts; // of the dispatches of a step
+    uint most_parts;  // that islands may take substeps for
+    float stiffer;    // times the substeps that loads call for
+    uint heaps_too;   // 1: heaps get all substeps that they call for, as stacks do
 };
 
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 384);
-static_assert(sizeof(gpu::ContactMemory) == 368 && sizeof(gpu::SolverPush) == 64);
+static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 400);
+static_assert(sizeof(gpu::ContactMemory) == 384 && sizeof(gpu::SolverPush) == 64 && sizeof(gpu::PacePush) == 64);
 #endif
 #endif

@@ -16,6 +16,7 @@
 FLAT_KERNEL;
 CCD_EFFECT;
 DRAG_EFFECT;
+CONTACTS_EFFECT;
 UPDATES(0, uint, counts);
 READS(1, BodyState, bodies);
 READS(2, BodyShape, shapes);
@@ -23,6 +24,7 @@ WRITES(3, SolverBody, solver_bodies);
 WRITES(4, vec4, spins); // that the momentum was last brought up to
 WRITES(5, uint, shares); // of its way that it may go, and that is left by what does not move
 READS(6, uint, steps);
+WRITES(7, uint, parents); // of islands: every body is one to begin with
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of the step
     float lag;    // of speeds behind places, s
@@ -43,6 +45,7 @@ void main() {
                                   vec4(inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1]), vec4(0.0, 0.0, 0.0, inverse[1][2]),
                                   vec4(0.0, 0.0, 0.0, 1.0));
     spins[b] = vec4(state.spin.xyz, 0.0);
+    if (kContacts != 0u) parents[b] = b;
     if (kCcd == 0u) return;
     shares[2u * b] = floatBitsToUint(1.0);
     shares[2u * b + 1u] = floatBitsToUint(1.0);

@@ -6,8 +6,8 @@
 // What a contact had may have been given away: while a blow kept it from being solved, or while a body of it slept, since what does not
 // move has no colors. All that hold one color of one body then take turns anew.
 //
-// Where islands are known (ISLANDS), small ones get a range of their own in the order of contacts, behind those of large ones,
-// and order_islands puts the colors in order there. What comes of it is the same: islands share no body that moves.
+// Small islands get a range of their own in the order of contacts, behind those of large ones, and order_islands puts the colors
+// in order there. What comes of it is the same: islands share no body that moves.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -26,13 +26,11 @@ UPDATES(6, uint, waiting);     // two lists
 WRITES(7, uint, contact_slots);
 WRITES(8, uint, color_start);  // where each color begins, NO_COLOR as the last, the end, and COLORS_*
 WRITES(9, uint, args);
-#ifdef ISLANDS
 READS(10, uint, islands);          // of a body: the lowest of its island
 UPDATES(11, uint, island_contacts); // of an island: how many, then where the next goes; 0 to begin with
 WRITES(12, uvec2, island_ranges);  // of each small island: its first contact and the end, in the order of contacts
 WRITES(13, uint, listed);          // contacts of small islands, island by island
-#endif
-layout(push_constant) uniform Push { uint capacity; };
+layout(push_constant) uniform Push { uint capacity, few_contacts; }; // of an island that is set apart
 #include "lib/publish.glsl"
 
 const uint kMostRounds = 1024u;
@@ -159,11 +157,7 @@ void colorNew(uint lane) {
 
 uint colorOf(uint c) { return min(memory[contact_pairs[c]].ids.w, NO_COLOR); }
 
-#ifdef ISLANDS
 #include "lib/order_by_island.glsl"
-#else
-bool isApart(uint c) { return false; }
-#endif
 
 // Of all that are not set apart.
 void countColors(uint lane, uint total) {
@@ -214,6 +208,8 @@ void publish(uint lane, uint total, uint apart) {
     if (lane < WIDE_COLORS) publishCount(COUNT_FIRST_COLOR + lane, many ? color_count[lane] : 0u, capacity);
     if (lane == WIDE_COLORS) publishCount(COUNT_SWIFT, counts[COUNT_SWIFT] != 0u ? total : 0u, capacity);
     if (lane == WIDE_COLORS + 1u) publishCount(COUNT_SOLVED_APART, apart + (ordered != 0u ? 1u : 0u), NO_INDEX);
+    if (lane == WIDE_COLORS + 2u) publishCount(COUNT_BY_COLOR, ordered != 0u ? 1u : 0u, NO_INDEX);
+    if (lane == WIDE_COLORS + 3u) publishCount(COUNT_UNFINISHED, 0u, NO_INDEX);
     if (lane == 0u) {
         color_start[COLORS_USED] = colors_used;
         color_start[COLORS_LACKED] = colorless;
@@ -222,7 +218,7 @@ void publish(uint lane, uint total, uint apart) {
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x, total = counts[COUNT_CONTACTS], apart = 0u;
+    uint lane = gl_LocalInvocationID.x, total = counts[COUNT_CONTACTS];
     if (lane < 2u) waiting_count[lane] = 0u;
     if (lane == 0u) contested = 0u;
     for (uint k = lane; k <= NO_COLOR; k += LANES) color_count[k] = 0u;
@@ -230,14 +226,9 @@ void main() {
     keepOldColors(lane, total);
     dropContested(lane, contested != 0u ? total : 0u);
     colorNew(lane);
-#ifdef ISLANDS
     countIslands(lane, total);
-#endif
     countColors(lane, total);
     placeColored(lane, total);
     placeColorless(lane, color_count[NO_COLOR] != 0u ? total : 0u);
-#ifdef ISLANDS
-    apart = setApart(lane, total);
-#endif
-    publish(lane, total, apart);
+    publish(lane, total, setApart(lane, total));
 }

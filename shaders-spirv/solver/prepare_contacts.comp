@@ -24,12 +24,15 @@ layout(push_constant) uniform Push { SolverPush push_; };
 
 float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
+// Impulses of the last step were for substeps of another length.
+float scaleOf(uint pair) { return memory[pair].pace.x != 0u ? float(memory[pair].pace.x) / float(push_.substeps) : 1.0; }
+
 SolverPoint pointOf(uint pair, uint k, Pair p, vec3 normal) {
     vec3 arm_a = memory[pair].arm_a[k].xyz + p.slid_a, arm_b = memory[pair].arm_b[k].xyz + p.slid_b;
     float separation = separationNow(pair, k, p, normal);
     float yield_ = yieldAlong(p.a, arm_a, normal, normal) + yieldAlong(p.b, arm_b, normal, normal);
     float speed = speedOfMeeting(dot(normal, velocityAt(p.b, arm_b) - velocityAt(p.a, arm_a)), separation, p, normal, push_.gravity);
-    return SolverPoint(vec4(arm_a, separation), vec4(arm_b, inverseOf(yield_)), vec4(memory[pair].anchor_a[k].w, 0.0, speed, 0.0));
+    return SolverPoint(vec4(arm_a, separation), vec4(arm_b, inverseOf(yield_)), vec4(scaleOf(pair) * memory[pair].anchor_a[k].w, 0.0, speed, 0.0));
 }
 
 // Of friction at the center: the inverse of the two by two matrix of yields.
@@ -100,10 +103,11 @@ void main() {
     solver_contacts[c].center_b = vec4(center_b + p.slid_b, reach);
     mat4 press = pressMass(pair, points, p, normal.xyz);
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
-    if (kFriction != 0u) solver_contacts[c].rub = vec4(memory[pair].rub.xyz, 1.0);
+    if (kFriction != 0u) solver_contacts[c].rub = vec4(scaleOf(pair) * memory[pair].rub.xyz, 1.0);
     vec4 loads = vec4(0.0);
-    for (uint k = 0u; k < points; k++) loads = withComponent(loads, k, float(LOAD_CARRIED) * max(memory[pair].arm_b[k].w, 0.0));
+    for (uint k = 0u; k < points; k++) loads = withComponent(loads, k, LOAD_CARRIED * scaleOf(pair) * max(memory[pair].arm_b[k].w, 0.0));
     solver_contacts[c].loads = loads;
+    solver_contacts[c].pace = uvec4(memory[pair].pace.x, push_.substeps, 0u, 0u);
     vec3 rub_mass = vec3(0.0);
     if (kFriction != 0u) rub_mass = rubMass(p, center_a + p.slid_a, center_b + p.slid_b, tangent.xyz, cross(normal.xyz, tangent.xyz));
     solver_contacts[c].rub_mass = vec4(rub_mass, arms);

@@ -1,10 +1,11 @@
-// A substep begins: gravity, and the impulses of the substep before once more (warm starting), each body's in the order of its
-// contacts. In the world's first substep what has contacts is given back the half of gravity that begin_step took from its speed.
+// A substep begins for bodies that no small island holds. In the world's first substep what has contacts is given back the half of
+// gravity that begin_step took from its speed.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "lib/kernel.glsl"
-#include "lib/solver_body.glsl"
 #include "lib/effect.glsl"
+#include "shared/solver.h"
 
 FLAT_KERNEL;
 CONTACTS_EFFECT;
@@ -15,46 +16,16 @@ READS(2, uint, adjacency_start);
 READS(3, uint, adjacency); // a contact << 1, | 1 where the body is its B
 UPDATES(4, SolverBody, solver_bodies);
 READS(5, uint, steps);
+READS(6, uint, islands);
+READS(7, uint, island_contacts);
 layout(push_constant) uniform Push { SolverPush push_; };
-#include "lib/blow.glsl"
-
-vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
-    uvec4 ids = solver_contacts[c].ids;
-    vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
-    vec4 kept = kFriction != 0u ? solver_contacts[c].rub : vec4(0.0), rub = isBlow(c, ids.z) ? vec4(0.0) : kept;
-    vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
-    vec3 slid = followed(solver_bodies[ids.x], solver_bodies[ids.y], solver_contacts[c].rub_mass.w, is_b);
-    vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
-    twist = cross((is_b ? center_b : center_a) + slid, slide) + rub.z * normal;
-    for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
-        vec4 pulse = solver_contacts[c].points[k].pulse;
-        vec3 pressed = (pulse.w != 0.0 ? 0.0 : pulse.x) * normal;
-        sum += pressed;
-        vec3 arm_a = solver_contacts[c].points[k].arm_a.xyz, arm_b = solver_contacts[c].points[k].arm_b.xyz;
-        twist += cross((is_b ? arm_b : arm_a) + slid, pressed);
-    }
-    return sum;
-}
+#include "lib/apart.glsl"
+#include "lib/push_body.glsl"
 
 void main() {
     uint b = flatIndex();
     if (b >= counts[COUNT_BODIES] || counts[STATUS_FAILED] != 0u) return;
-    Moving m = movingOf(solver_bodies[b]);
-    if (m.inverse_mass == 0.0) return;
-    vec3 impulse = vec3(0.0), twist = vec3(0.0);
-    uint first = kContacts != 0u ? adjacency_start[b] : 0u, last = kContacts != 0u ? adjacency_start[b + 1u] : 0u;
-    for (uint k = first; k < last; k++) {
-        uint entry = adjacency[k];
-        bool is_b = (entry & 1u) != 0u;
-        vec3 turning;
-        vec3 one = impulseOf(entry >> 1, is_b, turning);
-        impulse += is_b ? one : -one;
-        twist += is_b ? turning : -turning;
-    }
-    bool lags = steps[STEPS_MADE] == 0u && push_.first_substep != 0u && first < last;
-    if (lags) m.velocity += 0.5 * push_.gravity.w * push_.gravity.xyz;
-    m.velocity += push_.gravity.w * push_.gravity.xyz;
-    push(m, impulse, twist);
-    solver_bodies[b].velocity.xyz = m.velocity;
-    solver_bodies[b].spin.xyz = m.spin;
+    if (solver_bodies[b].velocity.w == 0.0 || isApart(b)) return;
+    bool lags = steps[STEPS_MADE] == 0u && push_.first_substep != 0u && hasContacts(b);
+    pushBody(b, (lags ? 1.5 : 1.0) * push_.gravity.w * push_.gravity.xyz);
 }

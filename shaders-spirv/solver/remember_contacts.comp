@@ -71,6 +71,7 @@ void remember(uint p, uint slot, uint old) {
     memory[p].tangent = vec4(tangent, max(surface_a.y, surface_b.y));
     memory[p].rub.w = armsOf(a, b);
     if (kFriction != 0u) memory[p].rub.xyz = old == NO_INDEX ? vec3(0.0) : rubOf(old, normal.xyz, tangent);
+    memory[p].pace = old == NO_INDEX || points == 0u ? uvec4(0u) : old_memory[old].pace;
     memory[p].turn_a = turn_a;
     memory[p].turn_b = turn_b;
     memory[p].place = vec4(turned(turnBack(turn_a), wayBetween(a, b)), points == 0u ? normal.w : 0.0);
@@ -91,6 +92,7 @@ void takeOver(uint p, uint old) {
     memory[p].tangent = old_memory[old].tangent;
     memory[p].rub.w = old_memory[old].rub.w;
     if (kFriction != 0u) memory[p].rub.xyz = old_memory[old].rub.xyz;
+    memory[p].pace = old_memory[old].pace;
     memory[p].turn_a = old_memory[old].turn_a;
     memory[p].turn_b = old_memory[old].turn_b;
     memory[p].place = old_memory[old].place;

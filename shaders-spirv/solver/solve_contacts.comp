@@ -9,6 +9,7 @@ FLAT_KERNEL;
 READS(0, uint, color_start);
 UPDATES(1, SolverContact, solver_contacts);
 UPDATES(2, SolverBody, solver_bodies);
+#include "lib/solver_push.glsl"
 #include "lib/solve_contact.glsl"
 
 void main() {

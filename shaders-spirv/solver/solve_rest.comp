@@ -1,7 +1,5 @@
 // The contacts of all colors that are not dispatched on their own, color by color, by one workgroup. What has no color goes one by
 // one in the end. Few lanes where they run in turn: a color seldom has work for many, and idle ones cost as much there.
-//
-// Where islands are known (ISLANDS) the last workgroup does that for large ones; every other walks through a small island.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -17,10 +15,7 @@ READS(0, uint, counts);
 READS(1, uint, color_start);
 UPDATES(2, SolverContact, solver_contacts);
 UPDATES(3, SolverBody, solver_bodies);
-#ifdef ISLANDS
-READS(4, uvec2, island_ranges);
-READS(5, uint, color_ends);
-#endif
+#include "lib/solver_push.glsl"
 #include "lib/solve_contact.glsl"
 
 const uint kMostTurns = 65000u; // of the 65,535 that Mesa's software device allows
@@ -32,17 +27,6 @@ void solve(uint c) {
     solveContact(c);
 #endif
 }
-
-// One loop for all: where a branch is not taken its side runs nevertheless, for nothing, on devices that run lanes in turn.
-#ifdef ISLANDS
-bool isIsland(uint group) { return group < color_start[ISLANDS_APART]; }
-uvec2 rangeOf(uint group) { return island_ranges[group]; }
-uint endOf(uint at) { return color_ends[at]; }
-#else
-bool isIsland(uint group) { return false; }
-uvec2 rangeOf(uint group) { return uvec2(0u); }
-uint endOf(uint at) { return at; }
-#endif
 
 // Which colors are walked through. Each contact without a color counts as one of its own, from NO_COLOR on.
 uvec2 colorsLeft() {
@@ -62,17 +46,16 @@ uvec2 colorRange(uint at) {
 }
 
 void main() {
-    uint lane = gl_LocalInvocationID.x, group = flatGroup();
-    if (group >= counts[COUNT_SOLVED_APART]) return;
-    bool island = isIsland(group);
-    uvec2 left = island ? rangeOf(group) : colorsLeft();
+    uint lane = gl_LocalInvocationID.x;
+    if (counts[COUNT_BY_COLOR] == 0u) return;
+    uvec2 left = colorsLeft();
     // Mesa compiles what comes before a barrier apart from what comes after: without this one, what solves would be there twice.
     barrier();
     for (uint turn = 0u; turn < kMostTurns && left.x < left.y; turn++) {
-        uvec2 some = island ? uvec2(left.x, endOf(left.x)) : colorRange(left.x);
+        uvec2 some = colorRange(left.x);
         for (uint c = some.x + lane; c < some.y; c += LANES) solve(c);
         memoryBarrierBuffer();
         barrier();
-        left.x = island ? some.y : colorAfter(left.x);
+        left.x = colorAfter(left.x);
     }
 }

@@ -23,6 +23,12 @@ bool hardlyMoves(uint b) {
     return way < dt * min(sleep_speed, 0.1 * radius);
 }
 
+// What nothing bears goes on for ever, however slowly.
+bool isBorne(uint b) {
+    bool stays = solver_bodies[b].moved.xyz == vec3(0.0) && solver_bodies[b].turned.xyz == vec3(0.0);
+    return stays || (bodies[b].sector.w & BODY_BORNE) != 0;
+}
+
 void main() {
     uint b = flatIndex();
     if (b >= counts[COUNT_BODIES] || counts[STATUS_FAILED] != 0u) return;
@@ -34,5 +40,5 @@ void main() {
         bodies[b].velocity.xyz = vec3(0.0);
         bodies[b].spin.xyz = vec3(0.0);
         bodies[b].momentum.xyz = vec3(0.0);
-    } else bodies[b].velocity.w = hardlyMoves(b) ? min(bodies[b].velocity.w + dt, kLongest) : 0.0;
+    } else bodies[b].velocity.w = hardlyMoves(b) && isBorne(b) ? min(bodies[b].velocity.w + dt, kLongest) : 0.0;
 }

@@ -385,9 +385,7 @@ TEST_F(SimulateCli, RefusesWhatIsWrongInOneLine) {
     expectRefused(simulate({"stack_10", "--json", "--state-hash"}), 2, "--state-hash");
     std::ofstream(path("bad.toml")) << "[[body]]\nplace = [0, nan, 0]\n";
     expectRefused(simulate({path("bad.toml"), "-o", path("a.glb")}), 2, "bad.toml:2");
-    std::ofstream(path("hard.toml")) << "[step]\nsolver = \"hard\"\n[[body]]\n";
-    expectRefused(simulate({path("hard.toml"), "-o", path("a.glb")}), 2, "hard solver");
-    EXPECT_EQ(files(), (std::set<std::string>{"bad.toml", "hard.toml"}));
+    EXPECT_EQ(files(), (std::set<std::string>{"bad.toml"}));
 }
 
 TEST_F(SimulateCli, DoesNotWriteOverWhatItReads) {

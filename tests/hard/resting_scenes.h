@@ -21,5 +21,7 @@ void largePileSettles(Trial& trial, const SceneCase& self);
 void slabHoldsAll(Trial& trial, const SceneCase& self);
 void allSleep(Trial& trial, const SceneCase& self);
 void hardlyCreeps(Trial& trial, const SceneCase& self);
+void towerStands(Trial& trial, const SceneCase& self); // cubes on each other, none asleep
+void heavyStands(Trial& trial, const SceneCase& self); // the second cube, on the first
 
 } // namespace hard

@@ -1,4 +1,5 @@
-// Which contacts break what they touch: find_blows, drop_blows, rank_blows, choose_blows, hold_blows and admit_breaking, on balls that meet head on.
+// Which contacts break what they touch: find_blows, drop_blows, rank_blows, choose_blows, hold_blows and admit_breaking, on
+// balls that meet head on.
 #include "modules/brittle/effects/blow.h"
 #include "shaders-spirv/shared/breaking.h"
 #include "tests/kernel/solver_lab.h"
@@ -73,13 +74,15 @@ Outcome judge(const Line& line) {
     Counts counts, event;
     counts[COUNT_BOX_PAIRS] = counts[COUNT_STRUCK] = pairs;
     counts[COUNT_BODIES] = count;
-    const engine::Buffer memory = bufferOf(line.memory), pieces = bufferOf(line.pieces), states = bufferOf(statesOf(line.bodies)),
-                         shapes = bufferOf(shapesOf(line.bodies)), solver_bodies = bufferOf(solverBodiesOf(line.bodies)),
+    const engine::Buffer memory = bufferOf(line.memory), pieces = bufferOf(line.pieces),
+                         states = bufferOf(statesOf(line.bodies)), shapes = bufferOf(shapesOf(line.bodies)),
+                         solver_bodies = bufferOf(solverBodiesOf(line.bodies)),
                          touches = bufferOf(std::vector<uint32_t>(pairs, 1)), breakable = bufferOf(line.breakable),
                          cards = bufferOf(std::vector{brittle::cardOf(*brittle::findMaterial("glass"))}),
                          steps = bufferOf(std::vector<uint32_t>{60, 0, 0, 0}), blows = blankBuffer<gpu::BlowRecord>(pairs),
                          turning = blankBuffer<gpu::TurningBlow>(pairs),
-                         soonest = bufferOf(std::vector<uint32_t>(count, NO_INDEX)), hardest = bufferOf(std::vector<uint32_t>(count, 0)),
+                         soonest = bufferOf(std::vector<uint32_t>(count, NO_INDEX)),
+                         hardest = bufferOf(std::vector<uint32_t>(count, 0)),
                          chosen = bufferOf(std::vector<uint32_t>(count, NO_INDEX)),
                          shares = bufferOf(std::vector<uint32_t>(2 * count, std::bit_cast<uint32_t>(1.0f))),
                          breaking = blankBuffer<gpu::BreakingRecord>(MOST_BREAKING),
@@ -136,8 +139,8 @@ TEST(Blows, HaveTheEnergyThatTwoBodiesHaveAlongTheNormalWhenTheyMeet) {
     EXPECT_NEAR(out.blows[0].blow.w, 0.05 / (9 * line.duration), 1e-5) << "the share of the step until they meet";
 }
 
-// The solver brakes what would meet in the substep after the step's last. That is left alone, and is a blow of the next step; what
-// breaks nothing is the solver's.
+// The solver brakes what would meet in the substep after the step's last. That is left alone, and is a blow of the next step;
+// what breaks nothing is the solver's.
 TEST(Blows, AreThoseOfBodiesThatMeetInTheStep) {
     constexpr double kStep = 9 * (1.0 / 60), kBraked = 9 * (1.0 / 60 + 1.05 / 240);
     for (const bool breaks : {true, false})

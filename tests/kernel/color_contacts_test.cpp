@@ -16,17 +16,20 @@ struct Colored {
     std::vector<uint32_t> wide_groups;   // and workgroups
 };
 
+// As if all were of one large island, which begins with more contacts than a small one has.
 Colored colorsOnDevice(const Touching& touching) {
     DeviceTouching in(touching);
     const uint32_t count = touching.count(), bodies = static_cast<uint32_t>(touching.moves.size());
     const engine::Buffer body_colors = bufferOf(std::vector<uint32_t>(4 * bodies)),
                          bids = bufferOf(std::vector<uint32_t>(bodies, NO_INDEX)),
                          waiting = blankBuffer<uint32_t>(2 * count + 2), slots = blankBuffer<uint32_t>(count),
-                         start = blankBuffer<uint32_t>(COLOR_WORDS);
+                         start = blankBuffer<uint32_t>(COLOR_WORDS), islands = bufferOf(std::vector<uint32_t>(bodies)),
+                         sizes = bufferOf(std::vector<uint32_t>(bodies, FEW_CONTACTS + 1)), ranges = blankBuffer<Word2>(bodies),
+                         listed = blankBuffer<uint32_t>(count);
     onDevice([&](engine::Commands& commands) {
-        commands.dispatchGroups(kernel("color_contacts"), 1, std::max(count, 1u),
+        commands.dispatchGroups(kernel("color_contacts"), 1, std::array<uint32_t, 2>{std::max(count, 1u), FEW_CONTACTS},
                                 {in.counts.words, in.contact_pairs, in.memory, in.solver_bodies, body_colors, bids, waiting,
-                                 slots, start, in.counts.args});
+                                 slots, start, in.counts.args, islands, sizes, ranges, listed});
     });
     Colored out = {{}, valuesOf<uint32_t>(slots, count), valuesOf<uint32_t>(start, COLORS + 2), {}, {}};
     for (const uint32_t pair : in.pair_of)
@@ -271,7 +274,7 @@ ByIsland islandsOnDevice(const Heaps& heaps) {
                          sizes = bufferOf(std::vector<uint32_t>(bodies)), ranges = blankBuffer<Word2>(bodies),
                          listed = blankBuffer<uint32_t>(count), ends = bufferOf(std::vector<uint32_t>(count));
     onDevice([&](engine::Commands& commands) {
-        commands.dispatchGroups(kernel("color_islands"), 1, count,
+        commands.dispatchGroups(kernel("color_contacts"), 1, std::array<uint32_t, 2>{count, FEW_CONTACTS},
                                 {in.counts.words, in.contact_pairs, in.memory, in.solver_bodies, body_colors, bids, waiting,
                                  slots, start, in.counts.args, islands, sizes, ranges, listed});
         commands.dispatchIndirect(kernel("order_islands"),
@@ -281,7 +284,8 @@ ByIsland islandsOnDevice(const Heaps& heaps) {
     ByIsland out = {
         {}, valuesOf<uint32_t>(slots, count), valuesOf<uint32_t>(start, COLOR_WORDS), valuesOf<uint32_t>(ends, count), {}};
     out.ranges = valuesOf<Word2>(ranges, out.start[ISLANDS_APART]);
-    EXPECT_EQ(in.counts[COUNT_SOLVED_APART], out.ranges.size() + (out.start[NO_COLOR + 1] != 0));
+    EXPECT_EQ(in.counts[COUNT_BY_COLOR], out.start[NO_COLOR + 1] != 0 ? 1u : 0u);
+    EXPECT_EQ(in.counts[COUNT_SOLVED_APART], out.ranges.size() + in.counts[COUNT_BY_COLOR]);
     for (const uint32_t pair : in.pair_of)
         out.colors.push_back(in.memory.mappedAs<gpu::ContactMemory>()[pair].ids.w);
     return out;

@@ -27,18 +27,19 @@ struct Buffers {
         : states(bufferOf(statesOf(bodies))), shapes(bufferOf(shapesOf(bodies))),
           solver_bodies(blankBuffer<gpu::SolverBody>(bodies.size())), spins(blankBuffer<gpu::vec4>(bodies.size())),
           none(bufferOf(std::vector<uint32_t>(bodies.size() + 1))), contacts(blankBuffer<gpu::SolverContact>(1)),
-          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(2 * bodies.size())) {
+          steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(2 * bodies.size())),
+          parents(blankBuffer<uint32_t>(bodies.size())) {
         counts[COUNT_BODIES] = static_cast<uint32_t>(bodies.size());
     }
     Counts counts;
-    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares;
+    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares, parents;
 };
 
 void begin(Buffers& b, const gpu::vec4& falling, double lag = 0) {
     const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(lag)};
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("begin_step"), b.counts[COUNT_BODIES], push,
-                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.shares, b.steps});
+                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.shares, b.steps, b.parents});
     });
 }
 
@@ -46,8 +47,9 @@ void substep(Buffers& b, const gpu::SolverPush& push) {
     onDevice([&](engine::Commands& commands) {
         const uint32_t bodies = b.counts[COUNT_BODIES];
         commands.dispatch(kernel("push_bodies"), bodies, push,
-                          {b.counts.words, b.contacts, b.none, b.none, b.solver_bodies, b.steps});
-        commands.dispatch(kernel("move_bodies"), bodies, push, {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins});
+                          {b.counts.words, b.contacts, b.none, b.none, b.solver_bodies, b.steps, b.none, b.none});
+        commands.dispatch(kernel("move_bodies"), bodies, push,
+                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.none, b.none, b.none});
     });
 }
 

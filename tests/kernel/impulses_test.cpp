@@ -2,6 +2,7 @@
 #include "tests/kernel/solver_lab.h"
 
 #include <algorithm>
+#include <set>
 
 namespace kernel_test {
 namespace {
@@ -25,11 +26,11 @@ gpu::SolverContact randomContact(Chance& chance, uint32_t a, uint32_t b) {
     return contact;
 }
 
-void noteBlow(gpu::SolverContact& contact, uint32_t point) { contact.points[point].pulse.w = 1; }
+void noteBlow(gpu::SolverContact& contact, uint32_t point) { contact.points[point].pulse.w += static_cast<float>(POINT_HIT); }
 
 bool isBlow(const gpu::SolverContact& contact) {
     for (uint32_t k = 0; k < contact.ids.z; ++k)
-        if (contact.points[k].pulse.w != 0) return true;
+        if (contact.points[k].pulse.w >= POINT_HIT) return true;
     return false;
 }
 
@@ -50,7 +51,7 @@ Push pushOf(const gpu::SolverContact& c, bool on_b, const Vector& moved) {
     const double sign = on_b ? 1 : -1;
     const Vector normal = xyz(c.normal), tangent = xyz(c.tangent);
     for (uint32_t k = 0; k < c.ids.z; ++k)
-        if (c.points[k].pulse.w == 0)
+        if (c.points[k].pulse.w < POINT_HIT)
             push.add(sign * double{c.points[k].pulse.x} * normal, grown + xyz(on_b ? c.points[k].arm_b : c.points[k].arm_a));
     if (isBlow(c)) return push;
     push.add(sign * (double{c.rub.x} * tangent + double{c.rub.y} * normal.cross(tangent)),
@@ -83,6 +84,8 @@ Heap pressedHeap(uint32_t body_count, uint32_t contact_count, uint32_t seed) {
         gpu::SolverContact& contact = heap.contacts.back();
         const bool both_move = heap.bodies[contact.ids.x].moves() && heap.bodies[contact.ids.y].moves();
         contact.rub_mass.w = !both_move ? ARMS_STAY : chance.oneIn(2) ? ARMS_OF_A_FOLLOW : ARMS_OF_B_FOLLOW;
+        for (gpu::SolverPoint& point : contact.points)
+            point.pulse.w = chance.oneIn(2) ? POINT_FREE : POINT_PRESSED;
         if (c % 5 == 0) noteBlow(heap.contacts.back(), chance.below(heap.contacts.back().ids.z));
     }
     for (uint32_t b = 0; b < body_count; ++b) {
@@ -94,7 +97,17 @@ Heap pressedHeap(uint32_t body_count, uint32_t contact_count, uint32_t seed) {
     return heap;
 }
 
-std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& gravity, uint32_t failed = 0, uint32_t made = 1) {
+// As color_contacts leaves them: each body is an island of its own here, of a few contacts or of too many.
+std::vector<uint32_t> islandContacts(const Heap& heap, const std::set<uint32_t>& small) {
+    std::vector<uint32_t> contacts(heap.bodies.size(), NO_INDEX);
+    for (const uint32_t body : small)
+        contacts[body] = 7;
+    return contacts;
+}
+
+// `small`: bodies whose islands are stepped on their own.
+std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& gravity, uint32_t failed = 0, uint32_t made = 1,
+                                            const std::set<uint32_t>& small = {}) {
     Counts counts;
     counts[STATUS_FAILED] = failed;
     gpu::SolverPush push{};
@@ -106,10 +119,11 @@ std::vector<gpu::SolverBody> pushedOnDevice(const Heap& heap, const Vector& grav
     for (uint32_t b = 0; b < bodies_in_all; ++b)
         solver_bodies[b].moved = wordsOf(heap.moved[b], double{solver_bodies[b].moved.w});
     const engine::Buffer contacts = bufferOf(heap.contacts), start = bufferOf(heap.start), adjacency = bufferOf(heap.adjacency),
-                         bodies = bufferOf(solver_bodies), steps = bufferOf(std::vector<uint32_t>{made, 0, 0, 0});
+                         bodies = bufferOf(solver_bodies), steps = bufferOf(std::vector<uint32_t>{made, 0, 0, 0}),
+                         islands = bufferOf(countUp(bodies_in_all)), island_contacts = bufferOf(islandContacts(heap, small));
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(kernel("push_bodies"), bodies_in_all, push,
-                          {counts.words, contacts, start, adjacency, bodies, steps});
+                          {counts.words, contacts, start, adjacency, bodies, steps, islands, island_contacts});
     });
     return valuesOf<gpu::SolverBody>(bodies, heap.bodies.size());
 }
@@ -194,12 +208,23 @@ TEST(SmallPushBodies, LeaveThemAloneIfTheStepFailed) {
     }
 }
 
-// A blow is not what the next step begins with.
-TEST(SmallKeepImpulses, NoteWhatContactsWerePressedWithButForBlows) {
+TEST(SmallPushBodies, LeaveThemToTheirSmallIslands) {
+    const Heap heap = pressedHeap(30, 60, 4);
+    const std::vector<gpu::SolverBody> all = pushedOnDevice(heap, {0, -9.81, 0}),
+                                       some = pushedOnDevice(heap, {0, -9.81, 0}, 0, 1, {1, 5, 8});
+    for (uint32_t b = 0; b < 30; ++b) {
+        const bool small = b == 1 || b == 5 || b == 8;
+        EXPECT_EQ(xyz(some[b].velocity), small ? xyz(heap.bodies[b].state.velocity) : xyz(all[b].velocity)) << b;
+    }
+}
+
+TEST(SmallKeepImpulses, NoteWhatContactsWerePressedWithAndInHowManySubsteps) {
     for (const uint32_t count : kSizes) {
         Heap heap = pressedHeap(20, count, count);
-        for (uint32_t c = 0; c < count; ++c)
+        for (uint32_t c = 0; c < count; ++c) {
             heap.contacts[c].ids.w = 2 * (count - c); // remembered in some other order
+            heap.contacts[c].pace = {0, 4 + c, 0, 0};
+        }
         Counts counts;
         counts[COUNT_CONTACTS] = count;
         const engine::Buffer contacts = bufferOf(heap.contacts),
@@ -210,8 +235,9 @@ TEST(SmallKeepImpulses, NoteWhatContactsWerePressedWithButForBlows) {
         for (const gpu::SolverContact& contact : heap.contacts) {
             const gpu::ContactMemory& kept = memory.mappedAs<gpu::ContactMemory>()[contact.ids.w];
             EXPECT_EQ(xyz(kept.rub), isBlow(contact) ? Vector(0, 0, 0) : xyz(contact.rub));
+            EXPECT_EQ(kept.pace.x, contact.pace.y);
             for (uint32_t k = 0; k < contact.ids.z; ++k) {
-                const bool blow = contact.points[k].pulse.w != 0;
+                const bool blow = contact.points[k].pulse.w >= POINT_HIT;
                 EXPECT_EQ(kept.anchor_a[k].w, blow ? 0 : contact.points[k].pulse.x);
                 EXPECT_EQ(kept.arm_b[k].w == HIT_LAST, blow);
             }

@@ -268,6 +268,21 @@ TEST(BreakingWorld, WhatStandsBehindAPaneTakesNothingOfTheBlowThatBreaksIt) {
 }
 
 // They would meet each other where the cube is.
+// A blow that would break something is put off to the next step, and may have been all that the striker touched.
+TEST(BreakingWorld, WhatIsAboutToBreakABodyAtRestFliesOnUntilThen) {
+    BodyDescription block = ball({0, 0.0999, 0}, "glass"), striker = ball({0, 0.8, 0}, "");
+    striker.velocity = {0, -10, 0};
+    const auto world = worldOf(sceneOf({striker, block}));
+    const auto height = [&] { return brittle::poseOf(presentBodies(*world)[0]).place[1]; };
+    double before = height(), way = 0;
+    for (uint32_t k = 0; k < 30 && stepUntilItBreaks(*world, 1).empty(); ++k) {
+        way = before - height();
+        before -= way;
+        EXPECT_GT(way, 10.0 / 60) << "step " << k;
+    }
+    EXPECT_LT(before, 0.2999) << "it is to break in a later step than it is struck";
+}
+
 TEST(BreakingWorld, WhatIsHitFromSixSidesAtOnceBreaks) {
     SceneDescription scene = sceneOf({}, false);
     scene.effects = {"contacts", "impact_fracture", "events"};

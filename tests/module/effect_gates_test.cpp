@@ -125,12 +125,11 @@ TEST(EffectGates, AnEffectThatIsOffHasNoPassesAndLoadsNoKernels) {
     for (const auto& [effect, kernels] : std::vector<Owned>{
              {Effect::Restitution, {"bounce_islands"}},
              {Effect::Ccd, {"hold_back"}},
-             {Effect::Sleeping,
-              {"begin_islands", "join_islands", "settle_islands", "wake_contacts", "lull_bodies", "color_islands",
-               "order_islands", "solve_islands", "bounce_islands", "time_rest"}},
+             {Effect::Sleeping, {"time_islands", "wake_contacts", "lull_bodies", "time_rest"}},
              {Effect::Contacts,
               {"bound_pieces", "pair_few", "recall_contacts", "find_axes", "build_manifolds", "remember_contacts",
-               "keep_pair_count", "prepare_contacts", "keep_impulses", "hold_back", "color_islands", "solve_islands"}}}) {
+               "keep_pair_count", "prepare_contacts", "keep_impulses", "hold_back", "join_islands",
+               "settle_islands", "color_contacts", "order_islands", "bounce_islands"}}}) {
         const StepPlan plan = planOf(without(effect));
         for (const std::string& kernel : kernels) {
             const bool wide = engine_test::device().subgroupSize() >= 32 && (has(all, kernel + "_wide"));

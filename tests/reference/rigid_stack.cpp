@@ -32,11 +32,15 @@ Outline outlineOf(const Face& face) {
     return {low_x, high_x, low_z, high_z};
 }
 
-// The four corners of where the faces lie over each other: B's, its last one first, where A's face holds them; else A's.
-std::array<Point, 4> cornersOf(const Face& of_a, const Face& of_b) {
-    if (outlineOf(of_a).holds(outlineOf(of_b))) return {of_b[3], of_b[0], of_b[1], of_b[2]};
-    return of_a;
+// The four corners of where the faces lie over each other: the other's, its last one first, where the leading face holds them;
+// else those of the leading face.
+std::array<Point, 4> cornersOf(const Face& leading, const Face& other) {
+    if (outlineOf(leading).holds(outlineOf(other))) return {other[3], other[0], other[1], other[2]};
+    return leading;
 }
+
+// The face of a box that does not move leads, else that of the first box.
+bool leadsB(const StackedBox& a, const StackedBox& b) { return b.mass == 0 && a.mass != 0; }
 
 SoftPoint pointAt(const Point& at, double height_a, double height_b, const StackedBox& a, const StackedBox& b) {
     SoftPoint p;
@@ -56,7 +60,7 @@ bool findContact(const StackedBox& a, const StackedBox& b, double margin, SoftCo
     contact.normal = {0, up, 0};
     contact.tangent = {1, 0, 0};
     contact.friction = std::sqrt(a.friction * b.friction);
-    const auto corners = cornersOf(of_a, of_b);
+    const auto corners = leadsB(a, b) ? cornersOf(of_b, of_a) : cornersOf(of_a, of_b);
     for (size_t k = 0; k < corners.size(); ++k)
         contact.points[k] = pointAt(corners[k], height_a, height_b, a, b);
     return true;
@@ -96,7 +100,6 @@ RigidStack::RigidStack(const std::vector<StackedBox>& boxes, const StackSettings
     solve_.soft = softnessOf(hertz, settings.contact_damping, h);
     solve_.stiff = softnessOf(2 * hertz, settings.contact_damping / 2, h);
     solve_.fastest_push = settings.push_out;
-    solve_.blow_speed = settings.blow_speed;
     for (const StackedBox& box : boxes) {
         bodies_.push_back(bodyOf(box));
         radii_.push_back(radiusOf(box));
@@ -183,8 +186,6 @@ void RigidStack::step() {
         c.beginStep(bodies_[c.a], bodies_[c.b]);
     for (uint32_t k = 0; k < settings_.substeps; ++k)
         substep();
-    for (SoftContact& c : contacts_)
-        c.endStep();
     for (RigidBody& body : bodies_)
         body.endStep();
 }

@@ -27,7 +27,6 @@ struct StackSettings {
     double dt;
     uint32_t substeps;
     double contact_hertz, contact_damping, push_out, margin;
-    double blow_speed = 1; // m/s
 };
 
 class RigidStack {

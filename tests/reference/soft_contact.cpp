@@ -8,10 +8,8 @@
 namespace reference {
 namespace {
 
-constexpr double kLoadCarried = 0.75; // of what a point has carried of late, the share that does not make it give way
-constexpr double kLoadFollowed = 0.2; // of what it carries now, a step
-constexpr double kNoPull = 1e-3;      // of what all points press: what would pull less than that is to press with nothing
-constexpr double kDoubt = 0.02;       // of the mean diagonal: speeds that hardly any impulse gives are not asked for
+constexpr double kNoPull = 1e-3; // of what all points press: what would pull less than that is to press with nothing
+constexpr double kDoubt = 0.02;  // of the mean diagonal: speeds that hardly any impulse gives are not asked for
 
 using Four = SoftContact::Four;
 using Matrix = std::array<Four, SoftContact::kPoints>;
@@ -148,7 +146,6 @@ void SoftContact::beginStep(const RigidBody& on_a, const RigidBody& on_b) {
         center_b = center_b + (1.0 / kPoints) * p.arm_b;
         const Point way = on_b.place + rotated(on_b.turn, p.anchor_b) - on_a.place - rotated(on_a.turn, p.anchor_a);
         p.separation_then = dot(normal, way);
-        p.was_blow = false;
     }
     follows = on_a.moves() && on_b.moves();
     slid = follows ? on_b.place + center_b - on_a.place - center_a : Point{0, 0, 0};
@@ -180,17 +177,12 @@ void SoftContact::weighRubbing(const RigidBody& on_a, const RigidBody& on_b) {
     twist_mass = 1 / dot(normal, on_a.spinBy(normal) + on_b.spinBy(normal));
 }
 
-bool SoftContact::hasBlow() const {
-    return std::ranges::any_of(points, [](const SoftPoint& p) { return p.was_blow; });
-}
-
 void SoftContact::applyAgain(RigidBody& on_a, RigidBody& on_b) const {
     for (const SoftPoint& p : points) {
-        const Point pressed = (p.was_blow ? 0 : p.impulse) * normal;
+        const Point pressed = p.impulse * normal;
         on_a.push(reachOf(p.arm_a, on_a, on_b), -1.0 * pressed);
         on_b.push(p.arm_b, pressed);
     }
-    if (hasBlow()) return;
     const Point rubbed = slide * tangent + slide_across * cross(normal, tangent);
     on_a.push(reachOf(center_a, on_a, on_b), -1.0 * rubbed);
     on_b.push(center_b, rubbed);
@@ -236,8 +228,7 @@ void SoftContact::solveTogether(RigidBody& on_a, RigidBody& on_b, const std::arr
         double asked = 0;
         for (size_t j = 0; j < kPoints; ++j)
             asked += press[k][j] * lacks[j];
-        const double given_way = std::max(points[k].impulse - kLoadCarried * points[k].carried, 0.0);
-        total[k] = points[k].impulse - demands[k].mass_share * asked - demands[k].impulse_share * given_way;
+        total[k] = points[k].impulse - demands[k].mass_share * asked - demands[k].impulse_share * points[k].impulse;
         if (total[k] < -kNoPull * pressed) return;
         total[k] = std::max(total[k], 0.0);
     }
@@ -251,8 +242,7 @@ void SoftContact::solveTogether(RigidBody& on_a, RigidBody& on_b, const std::arr
 
 void SoftContact::solvePoint(SoftPoint& p, RigidBody& on_a, RigidBody& on_b, const Demand& demand) const {
     const double asked = demand.mass_share * p.mass * (speedAt(p, on_a, on_b) + demand.speed);
-    const double given_way = demand.impulse_share * std::max(p.impulse - kLoadCarried * p.carried, 0.0);
-    const double total = std::max(p.impulse - asked - given_way, 0.0);
+    const double total = std::max(p.impulse - asked - demand.impulse_share * p.impulse, 0.0);
     on_a.push(reachOf(p.arm_a, on_a, on_b), (p.impulse - total) * normal);
     on_b.push(p.arm_b, (total - p.impulse) * normal);
     p.impulse = total;
@@ -284,10 +274,6 @@ void SoftContact::solve(RigidBody& on_a, RigidBody& on_b, const SolveSettings& s
     std::array<Demand, kPoints> demands;
     for (size_t k = 0; k < kPoints; ++k) {
         SoftPoint& p = points[k];
-        if (with_push) {
-            if (p.was_blow) p.impulse = 0;
-            p.was_blow = speedAt(p, on_a, on_b) < -settings.blow_speed;
-        }
         demands[k] = demandOf(separationOf(p, on_a, on_b), p.impulse, !on_a.moves() || !on_b.moves(), settings, with_push);
     }
     solveTogether(on_a, on_b, demands);
@@ -295,20 +281,12 @@ void SoftContact::solve(RigidBody& on_a, RigidBody& on_b, const SolveSettings& s
         solvePoint(points[k], on_a, on_b, demands[k]);
     for (size_t k = kPoints; k-- > 0;)
         solvePoint(points[k], on_a, on_b, demands[k]);
+    if (with_push) return;
     double pressed = 0;
     for (const SoftPoint& p : points)
         pressed += p.impulse;
     resistTwist(on_a, on_b, friction * pressed * reach);
     resistSliding(on_a, on_b, friction * pressed);
-}
-
-void SoftContact::endStep() {
-    if (hasBlow()) slide = slide_across = twist = 0;
-    for (SoftPoint& p : points) {
-        p.carried = std::min(p.carried, p.impulse);
-        p.carried += kLoadFollowed * (p.impulse - p.carried);
-        if (p.was_blow) p.impulse = p.carried = 0;
-    }
 }
 
 } // namespace reference

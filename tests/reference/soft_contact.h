@@ -45,16 +45,14 @@ struct SolveSettings {
     double seconds = 0;      // of a substep
     Softness soft, stiff;    // the latter where one of the two does not move
     double fastest_push = 0; // m/s
-    double blow_speed = 0;   // m/s
 };
 
 struct SoftPoint {
     Point anchor_a, anchor_b; // own axes
     Point arm_a, arm_b;       // world axes; of the moment when it was found
-    double impulse = 0, carried = 0;
+    double impulse = 0;
     double separation_then = 0; // when the step began
     double mass = 0;
-    bool was_blow = false;
 };
 
 struct SoftContact {
@@ -71,7 +69,6 @@ struct SoftContact {
     void beginStep(const RigidBody& on_a, const RigidBody& on_b);
     void applyAgain(RigidBody& on_a, RigidBody& on_b) const; // the impulses of the substep before
     void solve(RigidBody& on_a, RigidBody& on_b, const SolveSettings& settings, bool with_push);
-    void endStep();
 
 private:
     struct Demand {
@@ -81,7 +78,6 @@ private:
     double separationOf(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const;
     Point reachOf(const Point& arm_a, const RigidBody& on_a, const RigidBody& on_b) const; // from A to the point of B
     double speedAt(const SoftPoint& p, const RigidBody& on_a, const RigidBody& on_b) const;
-    bool hasBlow() const;
     void weighPressing(const RigidBody& on_a, const RigidBody& on_b);
     void weighRubbing(const RigidBody& on_a, const RigidBody& on_b);
     void solveTogether(RigidBody& on_a, RigidBody& on_b, const std::array<Demand, kPoints>& demands);
@@ -92,7 +88,7 @@ private:
     Point center_a = {0, 0, 0}, center_b = {0, 0, 0};
     bool follows = false;   // A's arms do B's points; where one does not move, arms stay
     Point slid = {0, 0, 0}; // B's center from A's when the step began
-    double reach = 0; // mean distance of the points from their center
+    double reach = 0;       // mean distance of the points from their center
     double twist_mass = 0;
     Point rub_mass = {0, 0, 0};      // along and across the tangent: 11, 12, 22
     std::array<Four, kPoints> press; // impulses at all points by the speeds that they are to give

@@ -127,15 +127,14 @@ TEST_F(WorldReload, TakesOverWhatChangesTheMotionAndGoesBack) {
     ASSERT_TRUE(saved);
     run(*tower, 2);
     const uint64_t expected = hashOf(*tower);
-    edit("solver/push_bodies.comp", "m.velocity += push_.gravity.w * push_.gravity.xyz;",
-         "m.velocity -= push_.gravity.w * push_.gravity.xyz;");
+    edit("lib/push_body.glsl", "m.velocity += falls;", "m.velocity -= falls;");
     uint32_t steps = 0;
-    stepUntilTaken(*tower, "push_bodies", steps);
+    stepUntilTaken(*tower, "solve_islands", steps);
     ASSERT_TRUE(tower->restore(*saved));
     run(*tower, 2);
     EXPECT_NE(hashOf(*tower), expected); // it falls upward
-    edit("solver/push_bodies.comp", "m.velocity -= push_", "m.velocity += push_");
-    stepUntilTaken(*tower, "push_bodies", steps);
+    edit("lib/push_body.glsl", "m.velocity -= falls;", "m.velocity += falls;");
+    stepUntilTaken(*tower, "solve_islands", steps);
     ASSERT_TRUE(tower->restore(*saved));
     run(*tower, 2);
     EXPECT_EQ(hashOf(*tower), expected);

@@ -41,6 +41,7 @@ public:
         auto beginning = world_.save();
         if (!beginning) return beginning.error();
         beginning_ = std::move(*beginning);
+        if (auto taken = awaitSources(); !taken) return taken;
         const auto pace = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(staged_.scene.step.dt));
         for (Clock::time_point next = Clock::now(); goesOn(); next = std::max(next + pace, Clock::now() - pace)) {
             const Clock::time_point begun = Clock::now();
@@ -62,6 +63,15 @@ private:
     }
 
     static Clock::duration restAfter(Clock::duration step) { return std::min<Clock::duration>(kYield * step, kLongestRest); }
+
+    // Steps that are counted are all made by what the folder held when the program began.
+    Result<void> awaitSources() {
+        while (options_.steps && interrupted == 0 && reloader_.isAwaited()) {
+            reloader_.waitUntil(Clock::now() + kBeforeNextTry);
+            if (auto followed = follow(); !followed) return followed;
+        }
+        return {};
+    }
 
     Result<void> follow() {
         const std::vector<ReloadEvent> events = reloader_.swap();

@@ -23,11 +23,13 @@ constexpr CountName kStep[] = {{COUNT_BOXES, "boxes"},
                                {COUNT_RADIX, "digits"},
                                {COUNT_CONTACTS, "contacts"},
                                {COUNT_FRESH_PAIRS, "fresh pairs"},
+                               {COUNT_BY_COLOR, "once, where contacts go by color"},
                                {COUNT_BODIES, "bodies"},
                                {COUNT_ONCE, "once, unless all sleep"},
                                {COUNT_AWAKE, "bodies awake"},
                                {COUNT_SWIFT, "contacts, where a body is fast"},
                                {COUNT_SOLVED_APART, "islands, and all else"},
+                               {COUNT_UNFINISHED, "islands, where one needs more dispatches"},
                                {COUNT_STRUCK, "pairs, where a contact breaks something"},
                                {COUNT_TURNING, "blows of bodies that turn"}};
 

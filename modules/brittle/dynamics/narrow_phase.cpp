@@ -21,6 +21,9 @@ Result<void> checkOptions(const NarrowPhaseOptions& options) {
         return refuse("the speculative distance is " + std::to_string(options.speculative) + " m; give one of 0 or more");
     if (!(options.duration >= 0) || !std::isfinite(options.duration))
         return refuse("the step takes " + std::to_string(options.duration) + " s; give it 0 or more");
+    if (!(options.step >= 0 && options.strip >= 0) || !std::isfinite(options.step) || !std::isfinite(options.strip))
+        return refuse("steps of " + std::to_string(options.step) + " s and strips of " + std::to_string(options.strip) +
+                      " m; give both as 0 or more");
     for (const uint32_t known : {0u, 6u, 14u, 26u, 62u})
         if (options.fixed_axes == known) return {};
     return refuse("there are no " + std::to_string(options.fixed_axes) + " fixed axes; take 6, 14, 26, 62, or 0 for all");
@@ -77,8 +80,9 @@ Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary
     if (!kernels) return kernels.error();
 
     const Float3& g = options.gravity;
-    const gpu::NarrowPhasePush push = {
-        {g[0], g[1], g[2], 0}, options.speculative, options.duration, input.capacity, input.count_at, options.fixed_axes, {}};
+    const gpu::NarrowPhasePush push = {{g[0], g[1], g[2], 0}, options.speculative, options.duration,
+                                       input.capacity,        input.count_at,      options.fixed_axes,
+                                       options.step,          options.strip,       0};
     const HullPools& hulls = input.hulls;
     commands.dispatchGroups(*kernels->size, 1, push, {input.counts, output.arguments});
     if (input.siblings)

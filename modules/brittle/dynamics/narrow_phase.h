@@ -47,6 +47,8 @@ struct NarrowPhaseOptions {
     float speculative = 0.02f;  // m, not negative
     float duration = 1.0f / 60; // of the step in seconds, not negative; 0 sweeps nothing
     Float3 gravity = {0, 0, 0}; // m/s2: what moves falls over the step, which counts where it is swept
+    float step = 0;             // s, not negative
+    float strip = 0;            // m, not negative: hulls that overlap by less are a floor of several pieces (seams); 0: none
     uint32_t fixed_axes = 0;    // 0: all axes of both hulls; 6, 14, 26 or 62 directions of the world: the paper's fixed set
 };
 

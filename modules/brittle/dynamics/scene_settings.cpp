@@ -1,10 +1,22 @@
 #include "modules/brittle/dynamics/scene_settings.h"
 
+#include <algorithm>
+
 namespace brittle {
 
-using engine::Error;
-using engine::ErrorCode;
 using engine::Result;
+
+namespace {
+
+// Contacts as stiff as these substeps allow.
+void solveHarder(StepSettings& s) {
+    constexpr uint32_t kTimes = 4, kMostSubsteps = 64;
+    s.substeps = std::min(kTimes * s.substeps, kMostSubsteps);
+    s.contact_hertz *= kTimes;
+    s.hard_solver = true;
+}
+
+} // namespace
 
 Result<StepSettings> settingsOf(const SceneDescription& scene) {
     const auto effects = resolve(scene.effects);
@@ -14,6 +26,7 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.gravity = has(Effect::Gravity) ? scene.gravity : Double3{0, 0, 0};
     s.dt = scene.step.dt;
     s.substeps = scene.step.substeps;
+    s.most_substeps = scene.step.most_substeps;
     s.iterations = scene.step.iterations;
     s.contacts = has(Effect::Contacts);
     s.friction = has(Effect::Friction);
@@ -40,8 +53,8 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.margin = scene.step.margin;
     s.recycling = scene.step.recycling;
     s.fixed_axes = scene.step.axes == AxisKind::Fixed ? 26 : 0;
-    if (scene.step.solver == SolverKind::Hard)
-        return Error{ErrorCode::BadInput, "the scene asks for the hard solver, which there is not yet; leave step.solver out"};
+    s.bounce_speed = scene.step.bounce_speed;
+    if (scene.step.solver == SolverKind::Hard) solveHarder(s);
     return s;
 }
 

@@ -3,12 +3,23 @@
 #include "modules/brittle/mesh/vector_math.h"
 #include "shaders-spirv/shared/sweep.h"
 
+#include <algorithm>
+#include <numbers>
+
 namespace brittle {
 namespace {
 
 constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
 
 float sweptFor(const Step& s) { return static_cast<float>(SWEEP_AHEAD * s.settings.dt); }
+
+// How deep what rests on something else sinks in, four times: a contact is a spring of `contact_hertz`.
+float stripOf(const Step& s) {
+    constexpr double kTimes = 4, kLeast = 1e-6; // m
+    const Double3& g = s.settings.gravity;
+    const double omega = 2 * std::numbers::pi * contactHertz(s.settings);
+    return static_cast<float>(std::max(kTimes * length(g) / (omega * omega), kLeast));
+}
 
 BroadPhase broadPhaseOf(const Step& s) {
     const StepBuffers& b = s.b.step;
@@ -64,9 +75,9 @@ void recordBoxes(const Step& s) {
     s.record.runGroups("open_step", 1, engine::NoPush{}, {s.record.counts(), s.record.args(), s.b.steps});
     const gpu::vec4 falling = fallingOf(s);
     const float push[] = {falling.x, falling.y, falling.z, falling.w, 0.5f * solverPush(s).gravity.w};
-    s.record.run(
-        "begin_step", Length::counted(COUNT_BODIES), push,
-        {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares, s.b.steps});
+    s.record.run("begin_step", Length::counted(COUNT_BODIES), push,
+                 {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares, s.b.steps,
+                  s.b.step.parents});
     if (s.has(Effect::Contacts)) recordPieceBoxes(s);
     s.record.commands().endLabel();
 }
@@ -78,6 +89,8 @@ engine::Result<void> recordPoints(const Step& s, const NarrowPhaseInput& input, 
     options.duration = sweptFor(s);
     options.gravity = gravity;
     options.fixed_axes = s.settings.fixed_axes;
+    options.step = static_cast<float>(s.settings.dt);
+    options.strip = stripOf(s);
     return recordNarrowPhase(s.record.commands(), s.kernels, input, options, {b.manifolds, b.axes, b.narrow_arguments},
                              s.many_lanes);
 }

@@ -18,23 +18,20 @@ gpu::vec4 softness(double hertz, double damping, double h, double last) {
     return {static_cast<float>(omega / a1), static_cast<float>(a2 * a3), static_cast<float>(a3), static_cast<float>(last)};
 }
 
-enum class Sweep : uint8_t { Push, PushAgain, Relax, Bounce };
+enum class Sweep : uint8_t { Relax = RELAX_FIRST, Push = PUSH_FIRST, PushAgain = PUSH_AGAIN, RelaxAgain = RELAX_AGAIN, Bounce };
 
-uint32_t pushWord(Sweep sweep) { return sweep == Sweep::Push ? PUSH_FIRST : sweep == Sweep::PushAgain ? PUSH_AGAIN : 0; }
+// Of an island that is solved on its own. One workgroup makes all iterations.
+uint32_t fewContacts(const Step& s) { return FEW_CONTACTS / s.settings.iterations; }
 
-// What workgroups walk through: all colors behind the wide ones, or, where there are few contacts, all; and small islands.
+bool mayHaveLargeIslands(const Step& s) { return s.has(Effect::Contacts) && s.b.sizes.contacts > fewContacts(s); }
+
+// What one workgroup walks through: all colors behind the wide ones.
 void recordRestOf(const Step& s, gpu::SolverPush push, Sweep sweep) {
     push.color = WIDE_COLORS;
     const StepBuffers& b = s.b.step;
-    const std::string what = sweep == Sweep::Bounce ? "bounce_" : "solve_", lanes = s.many_lanes ? "_wide" : "";
-    const auto groups = s.record.groupsOf(COUNT_SOLVED_APART);
-    if (s.has(Effect::Sleeping))
-        s.record.runGroups(
-            what + "islands" + lanes, groups, push,
-            {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies, b.island_ranges, b.color_ends});
-    else
-        s.record.runGroups(what + "rest" + lanes, groups, push,
-                           {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies});
+    const std::string what = sweep == Sweep::Bounce ? "bounce_rest" : "solve_rest", lanes = s.many_lanes ? "_wide" : "";
+    s.record.runGroups(what + lanes, s.record.groupsOf(COUNT_BY_COLOR), push,
+                       {s.record.counts(), b.color_start, b.solver_contacts, b.solver_bodies});
 }
 
 void recordColor(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t color) {
@@ -46,25 +43,26 @@ void recordColor(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t colo
 // The wide ones begin with another color in every substep: what is solved first loses to all that comes after, and a pair that
 // always did would not be pushed out of each other where it is jammed in.
 void recordPass(const Step& s, gpu::SolverPush push, Sweep sweep, uint32_t first = 0) {
-    const bool many = s.b.sizes.contacts > FEW_CONTACTS;
-    push.with_push = pushWord(sweep);
-    for (uint32_t color = 0; many && color < WIDE_COLORS; color++)
+    push.with_push = static_cast<uint32_t>(sweep);
+    for (uint32_t color = 0; color < WIDE_COLORS; color++)
         recordColor(s, push, sweep, (color + first) % WIDE_COLORS);
     recordRestOf(s, push, sweep);
 }
-
-uint32_t passes(const Step& s) { return s.has(Effect::Contacts) ? s.settings.iterations : 0; }
 
 void recordSubstep(const Step& s, gpu::SolverPush push, uint32_t substep) {
     const StepBuffers& b = s.b.step;
     push.first_substep = substep == 0 ? 1 : 0;
     s.record.run("push_bodies", kBodies, push,
-                 {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies, s.b.steps});
-    for (uint32_t k = 0; k < passes(s); k++)
+                 {s.record.counts(), b.solver_contacts, b.adjacency_start, b.adjacency, b.solver_bodies, s.b.steps, b.islands,
+                  b.island_contacts});
+    const uint32_t sweeps = mayHaveLargeIslands(s) ? s.settings.iterations : 0;
+    for (uint32_t k = 0; k < sweeps; k++)
         recordPass(s, push, k == 0 ? Sweep::Push : Sweep::PushAgain, substep);
-    s.record.run("move_bodies", kBodies, push, {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins});
-    for (uint32_t k = 0; k < passes(s); k++)
-        recordPass(s, push, Sweep::Relax, substep);
+    s.record.run(
+        "move_bodies", kBodies, push,
+        {s.record.counts(), s.b.bodies, s.b.shapes, b.solver_bodies, b.spins, b.islands, b.island_contacts, b.adjacency_start});
+    for (uint32_t k = 0; k < sweeps; k++)
+        recordPass(s, push, k == 0 ? Sweep::Relax : Sweep::RelaxAgain, substep);
 }
 
 // Pairs that have contact points and are to be solved.
@@ -82,12 +80,9 @@ void recordOrder(const Step& s) {
     const auto once = s.record.groupsOf(COUNT_ONCE);
     s.record.clear({b.body_colors});
     s.record.commands().fill(b.bids, NO_INDEX);
-    if (!s.has(Effect::Sleeping))
-        return s.record.runGroups("color_contacts", once, s.b.sizes.contacts,
-                                  {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
-                                   b.contact_slots, b.color_start, s.record.args()});
     s.record.clear({b.island_contacts});
-    s.record.runGroups("color_islands", once, s.b.sizes.contacts,
+    const uint32_t push[] = {s.b.sizes.contacts, fewContacts(s)};
+    s.record.runGroups("color_contacts", once, push,
                        {counts, b.contact_pairs, s.now.contacts, b.solver_bodies, b.body_colors, b.bids, b.waiting,
                         b.contact_slots, b.color_start, s.record.args(), b.islands, b.island_contacts, b.island_ranges,
                         b.listed});
@@ -108,6 +103,31 @@ void recordAdjacency(const Step& s) {
     s.record.run("order_adjacency", kContacts, engine::NoPush{},
                  {s.record.counts(), b.contact_pairs, s.now.contacts, b.solver_bodies, b.adjacency_start, b.loose_adjacency,
                   b.contact_slots, b.adjacency});
+}
+
+// All substeps of small islands.
+void recordSmallIslands(const Step& s) {
+    const StepSettings& set = s.settings;
+    const StepBuffers& b = s.b.step;
+    const std::string kernel = std::string(s.bounces ? "bounce" : "solve") + (s.many_lanes ? "_islands_wide" : "_islands");
+    gpu::PacePush push{};
+    push.gravity = fallingOf(s);
+    push.hertz = static_cast<float>(set.contact_hertz);
+    push.damping = static_cast<float>(set.contact_damping);
+    push.push_out = static_cast<float>(set.push_out);
+    push.least_bounce = static_cast<float>(set.bounce_speed);
+    push.substeps = set.substeps;
+    push.most_substeps = std::max(set.substeps, set.most_substeps);
+    push.iterations = set.iterations;
+    push.most_parts = set.hard_solver ? ISLAND_PARTS_HARD : ISLAND_PARTS;
+    push.stiffer = set.hard_solver ? 2 : 1;
+    push.heaps_too = set.hard_solver ? 1 : 0;
+    push.parts = s.many_lanes ? 1 : std::max(push.most_parts, set.substeps); // one part makes at least one substep
+    for (; push.part < push.parts; ++push.part)
+        s.record.runGroups(kernel, s.record.groupsOf(push.part == 0 ? COUNT_SOLVED_APART : COUNT_UNFINISHED), push,
+                           {s.record.counts(), b.color_start, b.island_ranges, b.color_ends, b.adjacency_start, b.adjacency,
+                            s.b.steps, s.b.shapes, b.solver_contacts, b.solver_bodies, s.b.bodies, b.spins, b.heights,
+                            b.members, s.record.args()});
 }
 
 // Idles where no body is fast for its size.
@@ -131,12 +151,13 @@ gpu::vec4 fallingOf(const Step& s) {
 
 gpu::SolverPush solverPush(const Step& s) {
     const StepSettings& set = s.settings;
-    const double h = set.dt / set.substeps, hertz = std::min(set.contact_hertz, 0.125 / h);
+    const double h = set.dt / set.substeps, hertz = contactHertz(set);
     gpu::SolverPush push{};
     push.gravity = {static_cast<float>(set.gravity[0]), static_cast<float>(set.gravity[1]), static_cast<float>(set.gravity[2]),
                     static_cast<float>(h)};
     push.soft = softness(hertz, set.contact_damping, h, set.push_out);
-    push.stiff = softness(2 * hertz, 0.5 * set.contact_damping, h, set.bounce_threshold);
+    push.substeps = set.substeps;
+    push.stiff = softness(2 * hertz, 0.5 * set.contact_damping, h, set.bounce_speed);
     return push;
 }
 
@@ -158,9 +179,10 @@ void recordSolve(const Step& s) {
         s.record.run("prepare_contacts", kContacts, push,
                      {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies,
                       b.solver_contacts});
+    if (contacts) recordSmallIslands(s);
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push, k);
-    if (s.bounces) recordPass(s, push, Sweep::Bounce);
+    if (s.bounces && mayHaveLargeIslands(s)) recordPass(s, push, Sweep::Bounce);
     s.record.commands().endLabel();
 }
 

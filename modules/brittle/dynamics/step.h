@@ -26,7 +26,7 @@ void recordBoxes(const Step& step);
 engine::Result<void> recordContacts(const Step& step); // pairs, points, and what is remembered of them
 // The points of such pairs, as far ahead as contacts are looked for, into the step's manifolds.
 engine::Result<void> recordPoints(const Step& step, const NarrowPhaseInput& input, const Float3& gravity);
-void recordIslands(const Step& step);                  // where bodies may sleep
+void recordIslands(const Step& step); // and which of them sleep
 void recordColors(const Step& step);
 void recordSolve(const Step& step);
 void recordRest(const Step& step); // where bodies may sleep

@@ -8,7 +8,7 @@
 namespace brittle {
 namespace {
 
-enum class Per : uint8_t { Step, Body, BodyAndOne, Piece, Pair, PairAndOne, Contact, Side, Block, Color };
+enum class Per : uint8_t { Step, Body, BodyAndOne, Piece, Pair, PairAndOne, Contact, Side, Member, Block, Color };
 
 struct Row {
     engine::BufferView StepBuffers::*view;
@@ -19,7 +19,7 @@ struct Row {
 };
 
 using S = StepBuffers;
-constexpr Effect kContacts = Effect::Contacts, kSleeping = Effect::Sleeping;
+constexpr Effect kContacts = Effect::Contacts;
 
 constexpr Row kRows[] = {
     {&S::box_low, "box_low", kContacts, Per::Piece, 16},
@@ -41,13 +41,15 @@ constexpr Row kRows[] = {
     {&S::shares, "shares", Effect::Ccd, Per::Body, 8},
     {&S::solver_contacts, "solver_contacts", kContacts, Per::Contact, sizeof(gpu::SolverContact)},
     {&S::hits, "hits", Effect::Events, Per::Contact, 4},
-    {&S::parents, "parents", kSleeping, Per::Body, 4},
-    {&S::islands, "islands", kSleeping, Per::Body, 4},
-    {&S::rests, "rests", kSleeping, Per::Body, 4},
-    {&S::island_contacts, "island_contacts", kSleeping, Per::Body, 4},
-    {&S::island_ranges, "island_ranges", kSleeping, Per::Body, 8},
-    {&S::listed, "listed", kSleeping, Per::Contact, 4},
-    {&S::color_ends, "color_ends", kSleeping, Per::Contact, 4},
+    {&S::parents, "parents", kContacts, Per::Body, 4},
+    {&S::islands, "islands", kContacts, Per::Body, 4},
+    {&S::rests, "rests", Effect::Sleeping, Per::Body, 4},
+    {&S::island_contacts, "island_contacts", kContacts, Per::Body, 4},
+    {&S::island_ranges, "island_ranges", kContacts, Per::Body, 8},
+    {&S::listed, "listed", kContacts, Per::Contact, 4},
+    {&S::color_ends, "color_ends", kContacts, Per::Contact, 4},
+    {&S::heights, "heights", kContacts, Per::Body, 4},
+    {&S::members, "members", kContacts, Per::Member, 4},
     {&S::body_colors, "body_colors", kContacts, Per::Body, 16},
     {&S::bids, "bids", kContacts, Per::Body, 4},
     {&S::waiting, "waiting", kContacts, Per::Contact, 8},
@@ -69,6 +71,7 @@ uint64_t countOf(Per per, const WorldSizes& n) {
     case Per::PairAndOne: return n.pairs + 1ull;
     case Per::Contact: return n.contacts;
     case Per::Side: return 2ull * n.contacts;
+    case Per::Member: return 4ull * n.contacts;
     case Per::Block: return (std::max(n.pairs, n.bodies) + SCAN_BLOCK - 1ull) / SCAN_BLOCK;
     case Per::Color: return COLOR_WORDS;
     }

@@ -3,6 +3,7 @@
 #include "shaders-spirv/shared/effects.h"
 #include "shaders-spirv/shared/fracture.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -22,6 +23,8 @@ uint32_t dragWord(const StepSettings& s) {
 
 } // namespace
 
+double contactHertz(const StepSettings& s) { return std::min(s.contact_hertz, 0.125 * s.substeps / s.dt); }
+
 float leastVolumeOf(const StepSettings& s) {
     return static_cast<float>(s.smallest_piece * s.smallest_piece * s.smallest_piece);
 }
@@ -31,12 +34,14 @@ Result<void> checkSettings(const StepSettings& s) {
     for (const double g : s.gravity)
         if (!(std::fabs(g) <= 1e4)) return refuse("gravity is no number or beyond 1e4 m/s2");
     if (!(s.dt >= 1e-6 && s.dt <= 1)) return refuse("a step takes " + std::to_string(s.dt) + " s; give it 1e-6 to 1");
+    if (s.most_substeps < 1 || s.most_substeps > 2000)
+        return refuse(std::to_string(s.most_substeps) + " substeps at the most; give 1 to 2000");
     if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
     if (s.iterations < 1 || s.iterations > 64) return refuse(std::to_string(s.iterations) + " iterations; give 1 to 64");
     if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
         return refuse("contacts of that frequency or damping; give 0 to 1e4");
-    if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_threshold >= 0))
-        return refuse("a push-out or bounce threshold that is negative or no number");
+    if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_speed >= 0))
+        return refuse("a push-out or a speed of bouncing that is negative or no number");
     if (!(s.sleep_speed >= 0 && s.sleep_after >= 0))
         return refuse("sleep below a speed or after a time that is negative or no number");
     if (!(s.air_density >= 0 && s.air_density <= 1e4) || !(s.drag_coefficient >= 0 && s.drag_coefficient <= 100))

@@ -110,11 +110,13 @@ struct StepDescription {
     double dt = 1.0 / 60;
     uint32_t steps = 300;
     uint32_t substeps = 4;
+    uint32_t most_substeps = 1500;
     uint32_t iterations = 1;
     SolverKind solver = SolverKind::Soft;
     double contact_hertz = 30;
     double contact_damping = 10;
     double push_out = 3;
+    double bounce_speed = 0.25;
     double margin = 0.02;
     bool recycling = true;
     AxisKind axes = AxisKind::All;

@@ -1,6 +1,8 @@
 #include "modules/brittle/scene/library/builtin_scenes.h"
 
 #include "modules/brittle/scene/library/hard_scenes.h"
+#include "modules/brittle/scene/library/long_motions.h"
+#include "modules/brittle/scene/library/long_stacks.h"
 #include "modules/brittle/scene/nearest_name.h"
 
 #include <algorithm>
@@ -44,8 +46,7 @@ engine::Error noScene(std::string_view name) {
 
 } // namespace
 
-// 12, 21 and 28 wait for hinges, fracture in the world and swept contacts; 25 and 26 are refusedScenes(); 27 compares pairs of
-// hulls and needs no world.
+// 21 waits for fracture in the world; 25 and 26 are refusedScenes(); 27 and 28 compare pairs of hulls and need no world.
 const std::vector<SceneEntry>& builtinScenes() {
     static const std::vector<SceneEntry> kScenes = {
         {"hull_pile_100", hullPile, 100},
@@ -78,6 +79,7 @@ const std::vector<SceneEntry>& builtinScenes() {
         {"hard_10_wall_1000", cubeAtWall, 1000},
         {"hard_11_plate_300", cubeAtPlate, 300},
         {"hard_11_plate_1000", cubeAtPlate, 1000},
+        {"hard_12_spinning_rods", spinningRods, 24},
         {"hard_13_head_on", cubesHeadOn, 120},
         {"hard_14_flat_plate_20mm", flatPlate, 20},
         {"hard_14_flat_plate_2mm", flatPlate, 2},
@@ -107,6 +109,47 @@ const std::vector<SceneEntry>& builtinScenes() {
         {"hard_31_density_10000", weighedStack, 10'000},
         {"hard_32_sleep", sleepyPile, 1000},
         {"hard_33_rest", restingBlock, 100'000},
+        {"hard_34_stack_8_of_1m", tallStack, 0},
+        {"hard_34_stack_10_of_10cm", tallStack, 1},
+        {"hard_34_stack_10_of_5cm", tallStack, 2},
+        {"hard_34_stack_5_of_5mm", tallStack, 3},
+        {"hard_34_stack_5_of_2mm", tallStack, 4},
+        {"hard_34_stack_6_of_5cm_10g", tallStack, 5},
+        {"hard_34_stack_40_of_1m", tallStack, 6},
+        {"hard_34_stack_40_of_2mm", tallStack, 7},
+        {"hard_34_stack_20_of_10m_10g", tallStack, 8},
+        {"hard_35_dropped_5", heavyDropped, 5},
+        {"hard_35_dropped_10", heavyDropped, 10},
+        {"hard_35_dropped_30", heavyDropped, 30},
+        {"hard_35_dropped_60", heavyDropped, 60},
+        {"hard_35_dropped_100", heavyDropped, 100},
+        {"hard_35_dropped_250", heavyDropped, 250},
+        {"hard_35_dropped_300", heavyDropped, 300},
+        {"hard_35_dropped_1000_hard", heavyDroppedHard, 1000},
+        {"hard_35_placed_10", heavyPlaced, 10},
+        {"hard_35_placed_100", heavyPlaced, 100},
+        {"hard_35_placed_250", heavyPlaced, 250},
+        {"hard_35_placed_300", heavyPlaced, 300},
+        {"hard_35_placed_1000", heavyPlaced, 1000},
+        {"hard_36_slide_tiles_slow", slider, 0},
+        {"hard_36_slide_tiles", slider, 1},
+        {"hard_36_slide_tiles_fast", slider, 2},
+        {"hard_36_slide_tiles_1cm", slider, 3},
+        {"hard_36_slide_steps", slider, 4},
+        {"hard_36_slide_cells", slider, 5},
+        {"hard_37_elastic_2", elasticDrop, 2},
+        {"hard_37_elastic_10", elasticDrop, 10},
+        {"hard_37_elastic_tilted", elasticTilted, 100},
+        {"hard_38_cradle_touching", cradle, 0},
+        {"hard_38_cradle_1mm", cradle, 1},
+        {"hard_38_cradle_10mm", cradle, 10},
+        {"hard_39_arch_9", arch, 9},
+        {"hard_39_arch_21", arch, 21},
+        {"hard_40_compounds_10", compoundsAtWall, 10},
+        {"hard_40_compounds_100", compoundsAtWall, 100},
+        {"hard_40_compounds_300", compoundsAtWall, 300},
+        {"hard_40_compounds_1000", compoundsAtWall, 1000},
+        {"hard_41_slope_99", steepSlope, 99},
     };
     return kScenes;
 }

@@ -1,0 +1,69 @@
+// Stacks for a minute, at every scale, and heavy cubes on light ones; nothing sleeps.
+#include "modules/brittle/scene/library/long_stacks.h"
+
+#include "modules/brittle/scene/library/scene_parts.h"
+
+#include <algorithm>
+#include <array>
+
+namespace brittle::library {
+namespace {
+
+struct Tall {
+    uint32_t cubes;
+    double edge;    // m
+    double gravity; // m/s2
+    uint32_t seconds;
+};
+constexpr std::array<Tall, kTallStacks> kTall = {{{8, 1, 9.81, 60},
+                                                  {10, 0.1, 9.81, 60},
+                                                  {10, 0.05, 9.81, 60},
+                                                  {5, 0.005, 9.81, 10},
+                                                  {5, 0.002, 9.81, 10},
+                                                  {6, 0.05, 98.1, 10},
+                                                  {40, 1, 9.81, 60},
+                                                  {40, 0.002, 9.81, 10},
+                                                  {20, 10, 98.1, 60}}};
+
+SceneDescription heavyAndLight(double gap, uint32_t ratio, const std::string& how) {
+    SceneDescription scene = newScene(
+        "A cube of " + std::to_string(ratio) + " kg " + how +
+            " one of 1 kg.\nPasses: after 10 s the heavy one is within 1 % of an edge of its place, upright and at rest.",
+        4);
+    scene.gravity = {0, -9.81, 0};
+    scene.step.steps = 600;
+    addGround(scene);
+    addBox(scene, {1, 1, 1}, {0, 0.5, 0}).mass = 1;
+    addBox(scene, {1, 1, 1}, {0, 1.5 + gap, 0}).mass = ratio;
+    return scene;
+}
+
+} // namespace
+
+SceneDescription tallStack(uint32_t number) {
+    const Tall& tall = kTall.at(std::min(number, kTallStacks - 1));
+    SceneDescription scene =
+        newScene("A stack of " + std::to_string(tall.cubes) + " cubes stands for " + std::to_string(tall.seconds) +
+                     " s without sleeping.\n"
+                     "Passes: the top moves by at most 1 % of an edge aside and 2 % in height; in the end "
+                     "nothing moves faster than 5 mm/s or a thousandth of an edge a second.",
+                 std::max(4.0, 0.9 * tall.cubes) * tall.edge);
+    scene.gravity = {0, -tall.gravity, 0};
+    scene.step.steps = 60 * tall.seconds;
+    addGround(scene);
+    for (uint32_t k = 0; k < tall.cubes; ++k)
+        addBox(scene, {tall.edge, tall.edge, tall.edge}, {0, tall.edge * (0.5 + k), 0});
+    return scene;
+}
+
+SceneDescription heavyDropped(uint32_t ratio) { return heavyAndLight(0.1, ratio, "falls by 0.1 m onto"); }
+
+SceneDescription heavyDroppedHard(uint32_t ratio) {
+    SceneDescription scene = heavyDropped(ratio);
+    scene.step.solver = SolverKind::Hard;
+    return scene;
+}
+
+SceneDescription heavyPlaced(uint32_t ratio) { return heavyAndLight(0, ratio, "lies on"); }
+
+} // namespace brittle::library
