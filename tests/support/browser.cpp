@@ -21,6 +21,7 @@ constexpr int kReads = 3, kWrites = 4; // where the browser looks for its pipe
 
 // Never returns.
 void runBrowser(const std::string& program, const std::string& folder, int reads, int writes) {
+    setpgid(0, 0); // a group for the browser and its children, so that all of them can be ended
     // Out of the way first: either may be where the other has to go.
     const int in = fcntl(reads, F_DUPFD, 10), out = fcntl(writes, F_DUPFD, 10);
     dup2(in, kReads);
@@ -34,6 +35,13 @@ void runBrowser(const std::string& program, const std::string& folder, int reads
           "--disable-sync", "--disable-dev-shm-usage", "--hide-scrollbars", "--remote-debugging-pipe", profile.c_str(),
           "about:blank", nullptr);
     _exit(127);
+}
+
+// The browser's children outlive it for a moment and write into its folder, which the caller is about to remove.
+void endGroup(pid_t group) {
+    constexpr int kTries = 200;
+    for (int k = 0; k < kTries && kill(-group, SIGKILL) == 0; ++k)
+        usleep(10'000);
 }
 
 } // namespace
@@ -88,6 +96,7 @@ Browser::~Browser() {
     if (process_ <= 0) return;
     kill(process_, SIGTERM);
     waitpid(process_, nullptr, 0);
+    endGroup(process_);
 }
 
 // One message, which ends with a zero.
