@@ -116,6 +116,8 @@ TEST_F(AccuracyCli, RefusesResultsThatNoSweepLeaves) {
     expectFlaw("/workloads/1/name", results["workloads"][0]["name"], "/workloads/1 has the name of another");
     expectFlaw("/figures/0/series", json::array(), "/figures/0 has no point");
     expectFlaw("/figures/0/series/0/points/0/sites", 0, "/figures/0/series/0/points/0 has no sites");
+    expectFlaw("/curves/0/series", json::array(), "/curves/0 has no point");
+    expectFlaw("/curves/1/series/0/points/0/y", 0, "/curves/1/series/0/points/0 has a coordinate that its axis cannot show");
     expectFlaw("/shares/0/stages", json::array(), "/shares/0 has no sites or took no time");
     expectFlaw("/laws/0/bins", json::array(), "/laws/0/bins is empty");
     expectFlaw("/laws/0/bins/3/to", -1, "/laws/0/bins/3 does not end");
@@ -195,6 +197,7 @@ TEST_F(LongAccuracyCli, MeasuresEveryKnobAgainstReferences) {
                              "ccd", "substeps", "iterations", "dt", "recycling", "precision and caps", "dt and substeps"})
         EXPECT_TRUE(knobs.contains(knob)) << knob;
     EXPECT_EQ(results["figures"].size(), 2u);
+    EXPECT_EQ(results["curves"].size(), 4u);
     EXPECT_EQ(results["laws"].size(), 3u);
     EXPECT_EQ(results["pictures"].size(), 2u);
     EXPECT_GT(std::ranges::count(fileBytes(path("all/results.csv")), '\n'), std::ptrdiff_t(results["measurements"].size()));

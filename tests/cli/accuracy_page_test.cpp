@@ -121,6 +121,7 @@ TEST_F(AccuracyPage, ChangesWithEveryNumber) {
     for (json& measurement : after["measurements"])
         changeNumbers(measurement["ms"]), changeNumbers(measurement["errors"]);
     changeNumbers(after["figures"]);
+    changeNumbers(after["curves"]);
     changeNumbers(after["laws"]);
     Browser browser(profile());
     browser.open(pageOf(before));

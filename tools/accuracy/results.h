@@ -13,7 +13,7 @@
 namespace accuracy {
 
 constexpr const char* kFormat = "brittle accuracy";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 // Of one thing measured again and again.
 struct Samples {
@@ -77,6 +77,21 @@ struct Figure {
     std::string name, title, caption;
     bool is_logarithmic = false;
     std::vector<FigureSeries> series;
+};
+
+// Motion against time or a setting, once for each series.
+struct CurvePoint {
+    double x = 0, y = 0;
+};
+struct CurveSeries {
+    std::string label;
+    std::vector<CurvePoint> points;
+    std::string ended; // why it goes no further; empty where it goes to the end
+};
+struct Curve {
+    std::string name, title, caption, x_label, y_label;
+    bool is_logarithmic_x = false, is_logarithmic_y = false; // then all coordinates are above 0
+    std::vector<CurveSeries> series;
 };
 
 struct StageTime {
@@ -145,6 +160,7 @@ struct Results {
     std::vector<Measurement> measurements; // the default of a workload before all else of it
     std::vector<Peer> peers;
     std::vector<Figure> figures;
+    std::vector<Curve> curves;
     std::vector<Shares> shares;
     std::vector<PicturePair> pictures;
     std::vector<Law> laws;

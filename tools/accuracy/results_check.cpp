@@ -24,6 +24,7 @@ public:
             checkErrors(at, peer.errors);
         });
         each("/figures", results_.figures, [&](const std::string& at, const Figure& figure) { checkFigure(at, figure); });
+        each("/curves", results_.curves, [&](const std::string& at, const Curve& curve) { checkCurve(at, curve); });
         each("/shares", results_.shares, [&](const std::string& at, const Shares& shares) { checkShares(at, shares); });
         each("/pictures", results_.pictures, [&](const std::string& at, const PicturePair& pair) {
             for (const std::string& picture : {pair.cheap, pair.dear, pair.marked})
@@ -108,6 +109,21 @@ private:
             each(series_at + "/points", series.points, [&](const std::string& place, const FigurePoint& point) {
                 expect(std::isfinite(point.sites) && point.sites > 0, place, "has no sites");
                 checkSamples(place, point.ms);
+            });
+        });
+        expect(points > 0, at, "has no point");
+    }
+
+    void checkCurve(const std::string& at, const Curve& curve) {
+        const auto fits = [](double value, bool is_logarithmic) {
+            return std::isfinite(value) && (is_logarithmic ? value > 0 : value >= 0);
+        };
+        size_t points = 0;
+        each(at + "/series", curve.series, [&](const std::string& series_at, const CurveSeries& series) {
+            points += series.points.size();
+            each(series_at + "/points", series.points, [&](const std::string& place, const CurvePoint& point) {
+                expect(fits(point.x, curve.is_logarithmic_x) && fits(point.y, curve.is_logarithmic_y), place,
+                       "has a coordinate that its axis cannot show");
             });
         });
         expect(points > 0, at, "has no point");

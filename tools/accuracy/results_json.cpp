@@ -24,6 +24,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Measurement, workload, knob, setting, loses, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FigurePoint, sites, ms)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FigureSeries, label, points, ended)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Figure, name, title, caption, is_logarithmic, series)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CurvePoint, x, y)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CurveSeries, label, points, ended)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Curve, name, title, caption, x_label, y_label, is_logarithmic_x, is_logarithmic_y, series)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StageTime, stage, ms)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shares, sites, stages)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PicturePair, title, cheap_setting, dear_setting, caption, cheap_ms, dear_ms, differing_share,
@@ -35,7 +38,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HardCase, name, setting, why, worst_kind, uni
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peer, name, workload, ms, errors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UsefulLine, text, measurement)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PartTime, part, seconds)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Results, machine, parts, kinds, workloads, measurements, peers, figures, shares, pictures,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Results, machine, parts, kinds, workloads, measurements, peers, figures, curves, shares, pictures,
                                    laws, useful, hard)
 
 namespace {

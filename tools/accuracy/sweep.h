@@ -40,6 +40,8 @@ engine::Result<void> sweepPatterns(Sweep& sweep);
 engine::Result<void> sweepDynamics(Sweep& sweep);
 // The paper's two figures: time against the number of sites, and the share of each part.
 engine::Result<void> measureFigures(Sweep& sweep);
+// Energy over a minute, and how far stacks and heavy bodies are off, by both solvers.
+engine::Result<void> drawCurves(Sweep& sweep);
 // The same under the cheapest and the dearest setting, drawn.
 engine::Result<void> drawPairs(Sweep& sweep);
 

@@ -40,36 +40,53 @@ function showFamilies() {
 
 const kDashes = ["", "7 4", "2 3", "10 3 2 3", "1 5"];
 
-function timeFigure(figure, path) {
+// `how`: the coordinates of a point, the axes, and what is said of the point at a place.
+function lineFigure(figure, path, how) {
   const b = kBounds, all = figure.series.flatMap((s) => s.points);
-  const log = figure.is_logarithmic;
-  const x = scaleOf(all.map((p) => p.sites), b.left, b.width - b.right, log);
-  const y = scaleOf(all.map((p) => p.ms.median), b.height - b.bottom, b.top, log);
+  const x = scaleOf(all.map(how.x), b.left, b.width - b.right, how.isLogarithmicX);
+  const y = scaleOf(all.map(how.y), b.height - b.bottom, b.top, how.isLogarithmicY);
   const details = make("div", { class: "details", "aria-live": "polite" });
   const points = [], sources = [], lines = [];
   figure.series.forEach((series, s) => {
-    const corners = series.points.map((p) => `${x.place(p.sites)},${y.place(p.ms.median)}`).join(" ");
+    const corners = series.points.map((p) => `${x.place(how.x(p))},${y.place(how.y(p))}`).join(" ");
     lines.push(make("polyline", { class: "line", points: corners, "stroke-dasharray": kDashes[s % kDashes.length] }));
     series.points.forEach((p, k) => {
       sources.push({ s, path: `${path}/series/${s}/points/${k}` });
-      points.push(make("g", { class: "point", role: "img",
-                              "aria-label": `${series.label}: ${inWords(p.sites)} sites, ${inWords(p.ms.median)} milliseconds` },
-                       make("circle", { class: "halo", cx: x.place(p.sites), cy: y.place(p.ms.median), r: 11 }),
+      points.push(make("g", { class: "point", role: "img", "aria-label": `${series.label}: ${how.spoken(p)}` },
+                       make("circle", { class: "halo", cx: x.place(how.x(p)), cy: y.place(how.y(p)), r: 11 }),
                        make("path", { class: "mark", d: kShapes[s],
-                                      transform: `translate(${x.place(p.sites)} ${y.place(p.ms.median)}) scale(.8)` })));
+                                      transform: `translate(${x.place(how.x(p))} ${y.place(how.y(p))}) scale(.8)` })));
     });
   });
-  const show = (k) => details.replaceChildren(words(`${path}/series/${sources[k].s}/label`), ": ",
-      number(sources[k].path + "/sites"), " sites, ", number(sources[k].path + "/ms/median"), " ms (",
-      number(sources[k].path + "/ms/low"), " to ", number(sources[k].path + "/ms/high"), ")");
+  const show = (k) => details.replaceChildren(words(`${path}/series/${sources[k].s}/label`), ": ", ...how.shown(sources[k].path));
   walkable(points, show);
   show(0);
-  const labels = { x: "sites", y: "ms, whole break" };
-  return make("figure", { "data-name": "time-" + figure.name }, words(path + "/title", "h3"),
+  return make("figure", { "data-name": how.name }, words(path + "/title", "h3"),
               make("svg", { viewBox: `0 0 ${b.width} ${b.height}`, role: "group",
                             "aria-label": figure.title + "; arrow keys walk along the points" },
-                   axes(x, y, labels), lines, points),
+                   axes(x, y, how.labels), lines, points),
               seriesLegend(figure, path), details, words(path + "/caption", "figcaption"), endings(figure, path));
+}
+
+function timeFigure(figure, path) {
+  return lineFigure(figure, path, {
+    name: "time-" + figure.name, x: (p) => p.sites, y: (p) => p.ms.median,
+    isLogarithmicX: figure.is_logarithmic, isLogarithmicY: figure.is_logarithmic,
+    labels: { x: "sites", y: "ms, whole break" },
+    spoken: (p) => `${inWords(p.sites)} sites, ${inWords(p.ms.median)} milliseconds`,
+    shown: (at) => [number(at + "/sites"), " sites, ", number(at + "/ms/median"), " ms (", number(at + "/ms/low"), " to ",
+                    number(at + "/ms/high"), ")"],
+  });
+}
+
+function curveFigure(curve, path) {
+  return lineFigure(curve, path, {
+    name: "curve-" + curve.name, x: (p) => p.x, y: (p) => p.y,
+    isLogarithmicX: curve.is_logarithmic_x, isLogarithmicY: curve.is_logarithmic_y,
+    labels: { x: words(path + "/x_label", "tspan"), y: words(path + "/y_label", "tspan") },
+    spoken: (p) => `${curve.x_label} ${inWords(p.x)}, ${curve.y_label} ${inWords(p.y)}`,
+    shown: (at) => [words(path + "/x_label"), " ", number(at + "/x"), ", ", words(path + "/y_label"), " ", number(at + "/y")],
+  });
 }
 
 function seriesLegend(figure, path) {
@@ -116,6 +133,10 @@ function sharesTable() {
 function showFigures() {
   section("figures").append(make("div", { class: "pair" }, results.figures.map((figure, k) => timeFigure(figure, `/figures/${k}`))),
                             results.shares.length > 0 ? sharesTable() : "");
+}
+
+function showCurves() {
+  section("curves").append(make("div", { class: "pair" }, results.curves.map((curve, k) => curveFigure(curve, `/curves/${k}`))));
 }
 
 function showPictures() {
@@ -231,6 +252,6 @@ function showAlone() {
   document.body.replaceChildren(make("div", { class: "alone" }, chosen ? words(chosen.dataset.path, "h3") : [], figure));
 }
 
-for (const show of [showLead, showUseful, showFamilies, showFigures, showPictures, showLaws, showHard, showMachine,
+for (const show of [showLead, showUseful, showFamilies, showFigures, showCurves, showPictures, showLaws, showHard, showMachine,
                     showReferences, hideEmpty, showContents, showAlone])
   show();
