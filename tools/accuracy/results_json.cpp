@@ -38,8 +38,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HardCase, name, setting, why, worst_kind, uni
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peer, name, workload, ms, errors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UsefulLine, text, measurement)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PartTime, part, seconds)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Results, machine, parts, kinds, workloads, measurements, peers, figures, curves, shares, pictures,
-                                   laws, useful, hard)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Results, machine, parts, kinds, workloads, measurements, peers, figures, curves, shares,
+                                   pictures, laws, useful, hard)
 
 namespace {
 
