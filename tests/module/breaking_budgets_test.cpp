@@ -65,7 +65,7 @@ TEST(BreakingBudgets, NoBudgetOfPairsOrContactsEndsIt) {
 }
 
 // A ball that flies into another on a bed of blocks: of its fragments each may be near any of them.
-TEST(BreakingBudgets, NoBudgetOfPairsEndsItAmongManyNeighbors) {
+TEST(LongBreakingBudgets, NoBudgetOfPairsEndsItAmongManyNeighbors) {
     auto fast = ball({0, 0.62, 0}, "glass"), struck = ball({0, 0.4, 0}, "glass");
     fast.velocity = {0, -15, 0};
     std::vector<BodyDescription> bodies = {fast, struck};

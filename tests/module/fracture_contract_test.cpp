@@ -127,7 +127,7 @@ TEST(FractureLimits, ACellWithThreeHundredFaces) {
     expectContract(cube, sitesOver(hard::sphereAroundCenter(300, .2), cube));
 }
 
-TEST(FractureLimits, ACellWithTwoThousandFaces) {
+TEST(LongFractureLimits, ACellWithTwoThousandFaces) {
     const Model cube = modelFrom("builtin:cube");
     expectContract(cube, sitesOver(hard::sphereAroundCenter(2000, .3), cube));
 }
