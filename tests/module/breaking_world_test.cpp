@@ -267,7 +267,6 @@ TEST(BreakingWorld, WhatStandsBehindAPaneTakesNothingOfTheBlowThatBreaksIt) {
         }
 }
 
-// They would meet each other where the cube is.
 // A blow that would break something is put off to the next step, and may have been all that the striker touched.
 TEST(BreakingWorld, WhatIsAboutToBreakABodyAtRestFliesOnUntilThen) {
     BodyDescription block = ball({0, 0.0999, 0}, "glass"), striker = ball({0, 0.8, 0}, "");
@@ -283,6 +282,7 @@ TEST(BreakingWorld, WhatIsAboutToBreakABodyAtRestFliesOnUntilThen) {
     EXPECT_LT(before, 0.2999) << "it is to break in a later step than it is struck";
 }
 
+// They would meet each other where the cube is.
 TEST(BreakingWorld, WhatIsHitFromSixSidesAtOnceBreaks) {
     SceneDescription scene = sceneOf({}, false);
     scene.effects = {"contacts", "impact_fracture", "events"};
