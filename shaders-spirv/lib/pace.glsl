@@ -10,7 +10,7 @@
 // The number changes slowly, because overlap would be thrown out by contacts that become stiff at once. While no contact has carried
 // anything, each is taken to carry the whole height, or the heavier of its bodies.
 //
-// Wants lib/island_heights.glsl, `color_ends`, `solver_contacts`, `solver_bodies`, `shapes` and PacePush as `push_` declared.
+// Wants lib/softness.glsl, lib/island_heights.glsl, `color_ends`, `solver_contacts`, `solver_bodies`, `shapes` and PacePush as `push_` declared.
 shared uint member_count;
 const float kGive = 0.06, kBase = 2.6, kLone = 0.3;
 const float kEdgeOfRadius = 1.1547005; // of a cube
@@ -39,7 +39,7 @@ uint substepsAtOnce(uint turns) { return max(kMostTurns / turns, 1u); }
 // and no more than is cheap.
 const uint kCheapTurns = 12000u;
 const float kSinkingShare = 0.02;
-const float kSpring = 2.0 * 3.14159265 * 0.125; // of a contact: angular frequency times the substep (setSubstep)
+const float kSpring = 2.0 * 3.14159265 * kStiffest; // of a contact: angular frequency times the substep
 
 bool isHeap(uint contacts, uint bodies) { return push_.heaps_too == 0u && contacts > bodies + bodies / 4u + 1u; }
 

@@ -86,7 +86,6 @@ struct CurvePoint {
 struct CurveSeries {
     std::string label;
     std::vector<CurvePoint> points;
-    std::string ended; // why it goes no further; empty where it goes to the end
 };
 struct Curve {
     std::string name, title, caption, x_label, y_label;

@@ -49,18 +49,6 @@ std::vector<double> overlapsAt(const SceneStart& start, const Moment& moment) {
     return support::overlapsOf(start.contents, poses);
 }
 
-// J: of motion and of height.
-double mechanicalEnergy(const SceneStart& start, const Moment& moment) {
-    double sum = 0;
-    for (const gpu::BodyState& body : moment.bodies) {
-        if (!moves(body)) continue;
-        const double mass = 1 / double{body.offset.w}, speed = sizeOf(xyz(body.velocity));
-        sum += 0.5 * mass * speed * speed + 0.5 * brittle::dot(xyz(body.momentum), xyz(body.spin)) -
-               mass * brittle::dot(start.scene.gravity, placeOf(body));
-    }
-    return sum;
-}
-
 // m, the mean over the bodies that move in both.
 double meanDistance(const Moment& a, const Moment& b) {
     double sum = 0, count = 0;
@@ -77,7 +65,7 @@ class PileTruth : public SceneTruth {
 public:
     PileTruth(const SceneStart& start, const FineRun& fine) : start_(start), fine_(fine) {}
     void see(const Moment& moment) override {
-        const double energy = mechanicalEnergy(start_, moment);
+        const double energy = mechanicalEnergy(start_.scene.gravity, moment.bodies, 0);
         if (seen_.empty()) first_ = lowest_ = energy;
         gained_ = std::max(gained_, energy - lowest_);
         lowest_ = std::min(lowest_, energy);
@@ -217,6 +205,17 @@ private:
 };
 
 } // namespace
+
+double mechanicalEnergy(const Double3& gravity, std::span<const gpu::BodyState> bodies, double lag) {
+    double sum = 0;
+    for (const gpu::BodyState& body : bodies) {
+        if (!moves(body)) continue;
+        const double mass = 1 / double{body.offset.w}, speed = sizeOf(xyz(body.velocity) + lag * gravity);
+        sum += 0.5 * mass * speed * speed + 0.5 * brittle::dot(xyz(body.momentum), xyz(body.spin)) -
+               mass * brittle::dot(gravity, placeOf(body));
+    }
+    return sum;
+}
 
 std::unique_ptr<SceneTruth> pileTruth(const SceneStart& start, const FineRun& fine) {
     return std::make_unique<PileTruth>(start, fine);

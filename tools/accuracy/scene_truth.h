@@ -7,6 +7,7 @@
 #include "tools/accuracy/results.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace accuracy {
@@ -16,6 +17,9 @@ struct Moment {
     double seconds = 0;
     std::vector<gpu::BodyState> bodies;
 };
+
+// J: of motion and of the height above the origin, of all bodies that move. `lag`: by which speeds are behind places, s.
+double mechanicalEnergy(const brittle::Double3& gravity, std::span<const gpu::BodyState> bodies, double lag);
 
 struct SceneStart {
     brittle::SceneDescription scene;

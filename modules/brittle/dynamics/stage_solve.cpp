@@ -20,12 +20,12 @@ gpu::vec4 softness(double hertz, double damping, double h, double last) {
 
 enum class Sweep : uint8_t { Relax = RELAX_FIRST, Push = PUSH_FIRST, PushAgain = PUSH_AGAIN, RelaxAgain = RELAX_AGAIN, Bounce };
 
-// Of an island that is solved on its own. One workgroup makes all iterations.
+// An island of at most this size is solved on its own: one workgroup makes all iterations.
 uint32_t fewContacts(const Step& s) { return FEW_CONTACTS / s.settings.iterations; }
 
 bool mayHaveLargeIslands(const Step& s) { return s.has(Effect::Contacts) && s.b.sizes.contacts > fewContacts(s); }
 
-// What one workgroup walks through: all colors behind the wide ones.
+// One workgroup walks through all colors behind the wide ones.
 void recordRestOf(const Step& s, gpu::SolverPush push, Sweep sweep) {
     push.color = WIDE_COLORS;
     const StepBuffers& b = s.b.step;

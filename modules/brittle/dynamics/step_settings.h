@@ -14,7 +14,7 @@ struct StepSettings {
     Double3 gravity = {0, -9.81, 0};
     double dt = 1.0 / 60;          // s
     uint32_t substeps = 4;         // 1 to 64
-    uint32_t most_substeps = 1500; // that an island takes whose loads call for more (shaders-spirv/lib/pace.glsl), 1 to 2000
+    uint32_t most_substeps = 1500; // that an island takes whose loads need more (shaders-spirv/lib/pace.glsl), 1 to 2000
     uint32_t iterations = 1;       // over all contacts, with push and without, in each substep: 1 to 64
     bool contacts = true;          // without them bodies fly and fall through each other, and nothing is looked for or solved
     double contact_hertz = 30;     // of the spring that pushes overlap out, no more than an eighth of the substeps a second
@@ -22,7 +22,7 @@ struct StepSettings {
     double push_out = 3;         // m/s, the most that overlap is pushed out with
     double margin = 0.02;        // m: points that are still so far apart are contacts already
     double bounce_speed = 0.25;  // m/s: what comes in slower does not bounce
-    bool hard_solver = false;    // heaps get all substeps that their loads call for, as stacks do, and all get twice as many
+    bool hard_solver = false;    // heaps get all substeps that their loads need, as stacks do, and all get twice as many
     uint32_t fixed_axes = 0;     // of the narrow phase; 0: all axes of both hulls
     bool friction = true;        // these four act where contacts are
     bool restitution = true;
@@ -51,7 +51,7 @@ struct StepSettings {
     double debris_fade = 1;        // s
 };
 
-// Of the spring that pushes overlap out, in substeps of `settings`: stiffer ones would not come to rest.
+// The frequency of the spring that pushes overlap out, in substeps of `settings`: stiffer ones would not come to rest.
 double contactHertz(const StepSettings& settings);
 
 // m3, that a body has at the least.

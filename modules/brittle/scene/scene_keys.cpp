@@ -86,11 +86,11 @@ constexpr SceneKey kStepKeys[] = {
     {"steps", at<&StepDescription::steps>, from(0, 1e9), "", "how many are simulated"},
     {"substeps", at<&StepDescription::substeps>, from(1, 64), "", "of one step, in which contacts are solved"},
     {"most_substeps", at<&StepDescription::most_substeps>, from(1, 2000), "",
-     "that bodies in touch take where their loads, sizes and height call for more than `substeps`"},
+     "that bodies in touch take if their loads, sizes and height need more than `substeps`"},
     {"iterations", at<&StepDescription::iterations>, from(1, 64), "", "over all contacts in a substep"},
     {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
      "soft: heaps take only as many substeps as are cheap; hard, for great mass ratios and loads: four times `substeps` at the "
-     "least, heaps as many as their loads call for, and twice as many for the same load"},
+     "least, heaps as many as their loads need, and twice as many for the same load"},
     {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e4), "1/s",
      "stiffness of soft contacts; an eighth of the substeps a second at most counts"},
     {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},

@@ -65,7 +65,7 @@ function lineFigure(figure, path, how) {
               make("svg", { viewBox: `0 0 ${b.width} ${b.height}`, role: "group",
                             "aria-label": figure.title + "; arrow keys walk along the points" },
                    axes(x, y, how.labels), lines, points),
-              seriesLegend(figure, path), details, words(path + "/caption", "figcaption"), endings(figure, path));
+              seriesLegend(figure, path), details, words(path + "/caption", "figcaption"), how.endings);
 }
 
 function timeFigure(figure, path) {
@@ -76,6 +76,7 @@ function timeFigure(figure, path) {
     spoken: (p) => `${inWords(p.sites)} sites, ${inWords(p.ms.median)} milliseconds`,
     shown: (at) => [number(at + "/sites"), " sites, ", number(at + "/ms/median"), " ms (", number(at + "/ms/low"), " to ",
                     number(at + "/ms/high"), ")"],
+    endings: endings(figure, path),
   });
 }
 
