@@ -1,11 +1,14 @@
-// Whether any point of a contact was hit in the last substep: what it was rubbed with says nothing about this one. Wants
-// `solver_contacts` declared.
+// How fast the points of a contact came in when the last substep began. Wants `solver_contacts` declared.
 #ifndef BLOW_GLSL
 #define BLOW_GLSL
-bool isBlow(uint c, uint points) {
-    bool blow = false;
+// POINT_HIT, POINT_MET or less: of the fastest point.
+float haste(uint c, uint points) {
+    float most = 0.0;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
-        blow = blow || (k < points && solver_contacts[c].points[k].pulse.w >= POINT_HIT);
-    return blow;
+        most = max(most, k < points ? solver_contacts[c].points[k].pulse.w : 0.0);
+    return most;
 }
+
+// What a contact was rubbed with in a blow says nothing about the next substep.
+bool isBlow(uint c, uint points) { return haste(c, points) >= POINT_HIT; }
 #endif

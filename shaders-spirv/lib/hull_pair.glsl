@@ -5,6 +5,7 @@
 #define HULL_PAIR_GLSL
 #include "lib/quaternion.glsl"
 #include "shared/body.h"
+#include "shared/narrow_phase.h"
 
 struct HullPair {
     HullRecord hull[2];
@@ -25,8 +26,6 @@ struct HullPair {
 };
 
 const float kRounding = 2e-6; // of lengths, after a few products and sums
-// A margin as large as a chip would hold it off the ground.
-const float kMarginShare = 0.1;
 // Of the other hull's size and depth. To hold it however it turns, 2 would do; the wider, the less rounding tilts what lies on it (a
 // house of cards creeps by 25 um at 4, 12 at 64, less than 10 here). Beyond 335 far corners round, by 2^-24 of their distance, by
 // more than what counts as a tie (kTie): the face that is the lowest would no longer be told from others.
@@ -93,7 +92,7 @@ HullPair loadPair(uvec2 of, NarrowPhasePush push) {
     pair.rounding = kRounding * (radius_a + radius_b);
     pair.plane_reach = 0.0;
     if (pair.planes != 0u) boundPlane(pair);
-    pair.margin = min(push.speculative, kMarginShare * pair.smaller);
+    pair.margin = min(push.speculative, MARGIN_SHARE * pair.smaller);
     boundTurning(pair);
     return pair;
 }

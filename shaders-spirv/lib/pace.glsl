@@ -39,13 +39,13 @@ uint substepsAtOnce(uint turns) { return max(kMostTurns / turns, 1u); }
 // and no more than is cheap.
 const uint kCheapTurns = 12000u;
 const float kSinkingShare = 0.02;
-const float kSpring = 2.0 * 3.14159265 * kStiffest; // of a contact: angular frequency times the substep
+const float kSpring = 2.0 * 3.14159265 * STIFFEST; // of a contact: angular frequency times the substep
 
 bool isHeap(uint contacts, uint bodies) { return push_.heaps_too == 0u && contacts > bodies + bodies / 4u + 1u; }
 
 uint affordable(bool is_heap, uint turns) { return is_heap ? kCheapTurns / turns : push_.most_parts * substepsAtOnce(turns); }
 
-shared uint most_load, last_pace, shares, shared_paces, shared_sinking; // sums over contacts, weighted by loads, the last two
+shared uint most_load, last_pace, coming_pace, shares, shared_paces, shared_sinking; // sums over contacts, weighted by loads, the last two
 
 float loadOf(uint c) {
     float sum = 0.0;
@@ -78,10 +78,16 @@ float ratioOf(uvec2 ids) {
     return least > 0.0 ? min(max(a, b) / least, kMostRatio) : 1.0;
 }
 
+// A body that is so much heavier than what it comes to needs its substeps in the step in which it comes.
+const float kMuchHeavier = 4.0;
+
+bool comesHeavy(uint c, float ratio) { return push_.heaps_too != 0u && most_load != 0u && ratio > kMuchHeavier && loadOf(c) == 0.0; }
+
 // In weights of the lighter body.
 float weightsOn(uint c, float g, float height) {
     uvec4 ids = solver_contacts[c].ids;
-    if (most_load == 0u) return max(height, ratioOf(ids.xy));
+    float ratio = ratioOf(ids.xy);
+    if (most_load == 0u || comesHeavy(c, ratio)) return max(height, ratio);
     return max(loadOf(c) * max(inverseMassOf(ids.x), inverseMassOf(ids.y)) / g, 1.0);
 }
 
@@ -105,6 +111,7 @@ void clearPace(uint lane) {
     if (lane != 0u) return;
     most_load = 0u;
     last_pace = 0u;
+    coming_pace = 0u;
     shares = 0u;
     shared_paces = 0u;
     shared_sinking = 0u;
@@ -123,6 +130,7 @@ void gatherPaces(uint lane, uvec2 range, float g, float height) {
         uint share = most > 0.0 ? uint(kHeaviest * (loadOf(c) / most) + 0.5) : 1u;
         float pace = min(paceOfContact(c, g, height), float(push_.most_substeps));
         float sinking = min(paceAgainstSinking(c, g), float(push_.most_substeps));
+        if (comesHeavy(c, ratioOf(solver_contacts[c].ids.xy))) atomicMax(coming_pace, uint(ceil(pace)));
         atomicAdd(shares, share);
         atomicAdd(shared_paces, share * uint(ceil(pace)));
         atomicAdd(shared_sinking, share * uint(ceil(sinking)));
@@ -140,6 +148,7 @@ uint paceFrom(bool is_heap, uint most, out bool carries) {
     uint stiff_pace = weighs ? meanPace(shared_paces) : push_.substeps;
     uint wanted = weighs && is_heap ? min(stiff_pace, meanPace(shared_sinking)) : stiff_pace;
     if (last_pace != 0u) wanted = clamp(wanted, slowerThan(last_pace, wanted), last_pace + max(last_pace / 4u, 1u));
+    if (!is_heap) wanted = max(wanted, coming_pace);
     uint pace = max(min(wanted, min(most, push_.most_substeps)), push_.substeps);
     carries = is_heap || stiff_pace > pace;
     return pace;

@@ -1,6 +1,5 @@
 // A soft constraint (Catto, "Soft Constraints", 2011), for substeps of h seconds: push per overlap, 1/s; shares of the mass and of the
 // impulse.
-const float kStiffest = 0.125; // hertz times the substep: a stiffer contact would not come to rest
 
 vec3 softnessOf(float hertz, float damping, float h) {
     float omega = 6.2831853 * hertz, a1 = 2.0 * damping + h * omega, a2 = h * omega * a1, a3 = 1.0 / (1.0 + a2);

@@ -17,6 +17,7 @@
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
 #include "lib/blow.glsl"
+#include "lib/blow_speed.glsl"
 #include "lib/effect.glsl"
 
 FRICTION_EFFECT;
@@ -56,7 +57,7 @@ bool pushesNow() { return with_push == PUSH_FIRST || with_push == PUSH_AGAIN; }
 // impulse that count. A point that pressed before is pushed to where it touches, from either side, and stands still without push: if it
 // closed a hair of a gap at once, a body that is jammed in would be thrown there in one substep and back in the next.
 vec3 demandOf(float separation, vec4 pulse, vec4 spring) {
-    bool is_free = pulse.w == POINT_FREE || pulse.w == POINT_FREE + POINT_HIT;
+    bool is_free = fract(0.5 * pulse.w) != 0.0;
     if (separation > 0.0 && (pulse.x == 0.0 || is_free)) return vec3(separation / gravity.w, 1.0, 0.0);
     return pushesNow() ? vec3(max(spring.x * separation, -spring.w), spring.yz) : vec3(0.0, 1.0, 0.0);
 }
@@ -86,12 +87,13 @@ float freedomOf(SolverPoint p) { return p.pulse.x == 0.0 ? POINT_FREE : POINT_PR
 // What a point was hit with is no guess for the next substep: applied again there, it would add energy to bodies that turn fast.
 void noteBlow(inout SolverPoint p, vec3 normal, Touching t) {
     p.pulse.x = p.pulse.w >= POINT_HIT ? 0.0 : p.pulse.x;
-    p.pulse.w = freedomOf(p) + (speedAt(p, normal, t) < -BLOW_SPEED ? POINT_HIT : 0.0);
+    float comes_in = -speedAt(p, normal, t), blow = blowSpeed(p.arm_a.xyz, p.arm_b.xyz);
+    p.pulse.w = freedomOf(p) + (comes_in > blow ? POINT_HIT : comes_in > MEETING_SHARE * blow ? POINT_MET : 0.0);
 }
 
 void notePoint(inout SolverPoint p, vec3 normal, Touching t) {
     if (with_push == PUSH_FIRST) noteBlow(p, normal, t);
-    if (with_push == RELAX_FIRST) p.pulse.w = freedomOf(p) + (p.pulse.w >= POINT_HIT ? POINT_HIT : 0.0);
+    if (with_push == RELAX_FIRST) p.pulse.w = freedomOf(p) + 2.0 * floor(0.5 * p.pulse.w);
 }
 
 const float kNoPull = 1e-3; // of what all points are pressed with: less is rounding, where impulses are to come to nothing
@@ -123,11 +125,16 @@ void solveTogether(uint c, inout SolverPoint p[MANIFOLD_POINTS], vec3 demands[MA
 void pressContact(uint c, vec3 normal, uint points, vec4 spring, inout Touching t) {
     SolverPoint p[MANIFOLD_POINTS];
     vec3 demands[MANIFOLD_POINTS];
+    vec4 first;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
         p[k] = solver_contacts[c].points[k];
         notePoint(p[k], normal, t);
         demands[k] = demandOf(separationOf(p[k], t, normal), p[k].pulse, spring);
+        first[k] = k < points ? p[k].pulse.x : 0.0;
     }
+#ifdef KEEPS_FIRST_IMPULSES
+    if (with_push == PUSH_FIRST) solver_contacts[c].first = first;
+#endif
     solveTogether(c, p, demands, points, normal, t);
     vec4 loads = solver_contacts[c].loads;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
@@ -211,13 +218,14 @@ void keepMotion(uint body, Moving m) {
     solver_bodies[body].spin.xyz = m.spin;
 }
 
+vec4 springOf(uint c) { return solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft; }
+
 void solveContact(uint c) {
     uvec4 ids = solver_contacts[c].ids;
     vec4 normal = solver_contacts[c].normal;
     Touching t = touchingOf(c, ids, normal.xyz);
-    vec4 limits = solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft;
     bool after_blow = with_push == PUSH_FIRST && isBlow(c, ids.z); // in the last substep
-    pressContact(c, normal.xyz, ids.z, limits, t);
+    pressContact(c, normal.xyz, ids.z, springOf(c), t);
     if (kFriction != 0u && after_blow) solver_contacts[c].rub.xyz = vec3(0.0);
     if (kFriction != 0u && (!pushesNow() || rubs_in_push)) rubContact(c, normal, ids.z, t);
     keepMotion(ids.x, t.a);

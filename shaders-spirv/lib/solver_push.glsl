@@ -9,3 +9,4 @@ layout(push_constant) uniform Push {
     uint substeps;
 };
 const bool rubs_in_push = true;
+float wholeStep() { return float(substeps) * gravity.w; }

@@ -4,6 +4,10 @@
 
 #include "gpu_types.h"
 
+// Contacts are looked for at no more than this share of the radius of the smaller hull. A wider margin would hold a chip off
+// the ground.
+#define MARGIN_SHARE 0.1
+
 GPU_NAMESPACE_BEGIN
 
 // Kinds of separating axes, in the upper byte of a feature. The rest: a face, two edges (A's << 8 | B's), or a direction.

@@ -68,8 +68,13 @@ GPU_NAMESPACE_BEGIN
 #define ISLAND_PARTS 8
 #define ISLAND_PARTS_HARD 16
 
-// What comes in faster is a blow: its impulse is forgotten in the next substep.
-#define BLOW_SPEED 1.0 /* m/s */
+// A point that comes in faster than this is hit by a blow (lib/blow_speed.glsl).
+#define BLOW_FALLS 6.116208 /* times the speed that gravity gives in a step */
+#define BLOW_SHARE 0.02     /* of the shorter arm, in a step, */
+#define BLOW_SPEED 1.0      /* m/s, but no more than this. Gravity may call for more. */
+
+// The frequency of a contact, times a substep. A stiffer contact would not come to rest.
+#define STIFFEST 0.125
 
 // Sweeps over contacts: while overlap is pushed out, and without. The first one of each kind notes how points are; the first of
 // a substep notes blows, too: what is pressed in it is no blow to the sweeps after.
@@ -78,20 +83,29 @@ GPU_NAMESPACE_BEGIN
 #define PUSH_AGAIN 2
 #define RELAX_AGAIN 3
 
-// What a point has carried of late counts as carried, in large islands and heaps: only what exceeds most of it makes it give way.
-// Stacks would sway by it: small islands that are no heaps take more substeps instead, and do without.
+// What a point has carried of late counts as carried, in large islands and heaps: only what exceeds most of it makes it give
+// way. Stacks would sway by it: small islands that are no heaps take more substeps instead, and do without.
 #define LOAD_CARRIED 0.75
 #define LOAD_FOLLOWED 0.2 /* of the difference, a step */
-// Of a point: whether it pressed when sweeps of this kind began, and whether a blow came in this substep.
+// Of a point: whether it pressed when sweeps of this kind began; and, added to that, whether it came in fast in this substep.
 #define POINT_PRESSED 0.0
 #define POINT_FREE 1.0
-#define POINT_HIT 2.0 /* added to the others */
-#define HIT_LAST -1.0 /* instead of a load: the point was hit in the last substep */
+#define POINT_MET 2.0     /* faster than a load comes in that is known */
+#define POINT_HIT 4.0     /* by a blow */
+#define MEETING_SHARE 0.1 /* of the speed of a blow: from there on a point is met */
+#define HIT_LAST -1.0     /* instead of a load: the point was hit in the last substep */
 
 // Impulses meet both bodies of a contact at one point (lib/solve_contact.glsl): whose arms follow the other's.
 #define ARMS_OF_A_FOLLOW 0
 #define ARMS_STAY 1 /* one of them does not move */
 #define ARMS_OF_B_FOLLOW 2
+
+// Of a sweep over a contact: what its change of impulses would still gain, and lose, if made again (solve_islands); the
+// greatest change and the greatest impulse.
+#define SWEEP_GAIN 0
+#define SWEEP_LOSS 1
+#define SWEEP_CHANGE 2
+#define SWEEP_PRESSED 3
 
 // A body while it is solved. `moved` and `turned` count from the beginning of the step.
 struct SolverBody {
@@ -110,15 +124,19 @@ struct SolverPoint {
 
 // A contact while it is solved, in the order of colors.
 struct SolverContact {
-    uvec4 ids;                   // body a, body b, points, where it is remembered
-    vec4 normal;                 // from A to B; w: friction
-    vec4 tangent;                // w: restitution
-    vec4 center_a;               // mean of the arms; w: effective mass against twisting
-    vec4 center_b;               // w: mean distance of the points from their center
-    vec4 rub;                    // impulses along the tangent, across it, of twisting; w: unused
-    vec4 rub_mass;               // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
-    vec4 loads;                  // of the points: what of their impulse does not make them give way
-    uvec4 pace;                  // substeps of its last step, 0 if it is new; of this one
+    uvec4 ids;     // body a, body b, points, where it is remembered
+    vec4 normal;   // from A to B; w: friction
+    vec4 tangent;  // w: restitution
+    vec4 center_a; // mean of the arms; w: effective mass against twisting
+    vec4 center_b; // w: mean distance of the points from their center
+    vec4 rub;      // impulses along the tangent, across it, of twisting; w: unused
+    vec4 rub_mass; // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
+    vec4 loads;    // of the points: what of their impulse does not make them give way
+    uvec4 pace;    // substeps of its last step, 0 if it is new; of this one
+    vec4 first;    // impulses of the points when the substep began
+    // Of sweeps that go on until bodies part (solve_islands): of the points before the last one,
+    vec4 before;                 // impulses
+    vec4 lacks;                  // speeds of separation that they lacked; behind the sweep SWEEP_*
     vec4 press[MANIFOLD_POINTS]; // effective mass of all points together along the normal: a symmetric matrix
     SolverPoint points[MANIFOLD_POINTS];
 };
@@ -168,7 +186,7 @@ struct PacePush {
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 400);
+static_assert(sizeof(gpu::SolverBody) == 80 && sizeof(gpu::SolverPoint) == 48 && sizeof(gpu::SolverContact) == 448);
 static_assert(sizeof(gpu::ContactMemory) == 384 && sizeof(gpu::SolverPush) == 64 && sizeof(gpu::PacePush) == 64);
 #endif
 #endif

@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 #include "shared/body.h"
+#include "shared/narrow_phase.h"
 #include "shared/hull.h"
 #include "lib/held_way.glsl"
 
@@ -32,7 +33,6 @@ layout(push_constant) uniform Push {
 
 const uint kHalvings = 12u;
 const float kDepthShare = 0.25; // of the thinner hull along the normal
-const float kMarginShare = 0.1; // of the smaller hull
 const float kRoom = 0.1;        // of what is allowed, for bodies that begin deeper
 const float kMuchLighter = 0.01;
 
@@ -91,7 +91,7 @@ vec3 depthAt(uint pair, Side a, Side b, vec3 way, float share) {
 
 // What begins deeper may go on a little, to get out of each other's way; but not ever deeper into what does not move, step by step.
 float allowedDepth(vec3 first, Side a, Side b) {
-    float slight = min(margin, kMarginShare * min(a.hull.center.w, b.hull.center.w));
+    float slight = min(margin, MARGIN_SHARE * min(a.hull.center.w, b.hull.center.w));
     float allowed = max(kDepthShare * min(first.y, first.z), slight);
     return max(allowed, first.x + kRoom * (moves(a.body) && moves(b.body) ? allowed : clamp(2.0 * allowed - first.x, 0.0, allowed)));
 }

@@ -41,6 +41,8 @@ layout(push_constant) uniform Push { PacePush push_; };
 vec4 gravity, soft, stiff; // as in SolverPush, for this island
 uint with_push;
 bool rubs_in_push; // where contacts carry loads
+float wholeStep() { return push_.gravity.w; }
+#define KEEPS_FIRST_IMPULSES
 #include "lib/solve_contact.glsl"
 #include "lib/push_body.glsl"
 #include "lib/move_body.glsl"
@@ -48,7 +50,7 @@ bool rubs_in_push; // where contacts carry loads
 #include "lib/island_heights.glsl"
 #include "lib/pace.glsl"
 
-shared uint most_sides, hit, struck;
+shared uint most_sides;
 #ifdef BOUNCE
 shared uint lively, met;
 #include "lib/meet_contact.glsl"
@@ -58,6 +60,9 @@ void sync() {
     memoryBarrierBuffer();
     barrier();
 }
+
+uint turns_left = 20000u; // for impacts and blows, of those that a lane may take (lib/pace.glsl)
+#include "lib/struck_bodies.glsl"
 
 // A body is listed by the first of its contacts.
 void listMember(uint body, uint c, uint first) {
@@ -87,13 +92,11 @@ void takePace(uint lane, uvec2 range, uint pace, bool carries) {
 }
 
 void setSubstep(uint pace) {
-    float h = push_.gravity.w / float(pace), hertz = min(push_.hertz * float(pace) / float(push_.substeps), kStiffest / h);
+    float h = push_.gravity.w / float(pace), hertz = min(push_.hertz * float(pace) / float(push_.substeps), STIFFEST / h);
     gravity = vec4(push_.gravity.xyz, h);
     soft = vec4(softnessOf(hertz, push_.damping, h), push_.push_out);
     stiff = vec4(softnessOf(2.0 * hertz, 0.5 * push_.damping, h), push_.least_bounce);
 }
-
-uint turns_left = 20000u; // for impacts, of those that a lane may take (lib/pace.glsl)
 
 #ifdef BOUNCE
 const uint kMostMeetings = 64u;
@@ -136,45 +139,6 @@ void meetAll(uint lane, uvec2 range, bool now) {
 }
 #endif
 
-// A body that is struck in several contacts at once, such as one of several pieces that flies into a wall, takes more sweeps:
-// contacts that take turns only once leave it turning. `stamp`: of this sweep.
-const uint kMoreSweeps = 15u;
-
-void noteStrike(uint body, uint stamp) {
-    if (solver_bodies[body].velocity.w == 0.0) return;
-    if (atomicExchange(heights[body], stamp) == stamp) struck = 1u;
-}
-
-void noteStrikes(uint c, uint stamp) {
-    uvec4 ids = solver_contacts[c].ids;
-    bool presses = false;
-    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
-        presses = presses || (k < ids.z && solver_contacts[c].points[k].pulse.x > 0.0);
-    if (!presses || !isBlow(c, ids.z)) return;
-    noteStrike(ids.x, stamp);
-    noteStrike(ids.y, stamp);
-}
-
-bool anyStruckTwice(uint lane, uvec2 range, bool wanted, uint stamp) {
-    uint end = wanted ? range.y : range.x;
-    for (uint c = range.x + lane; c < end; c += LANES)
-        if (isBlow(c, solver_contacts[c].ids.z)) hit = 1u;
-    barrier();
-    end = hit != 0u ? end : range.x;
-    for (uint c = range.x + lane; c < end; c += LANES) noteStrikes(c, stamp);
-    barrier();
-    bool found = wanted && struck != 0u;
-    barrier();
-    return found;
-}
-
-// Of more sweeps of this kind, as many as this one calls for.
-uint moreSweeps(bool wanted, uint turns) {
-    uint more = wanted ? min(kMoreSweeps, turns_left / turns) : 0u;
-    turns_left -= more * turns;
-    return more;
-}
-
 void sweep(uint lane, uvec2 range) {
     uint at = range.x;
     for (uint color = 0u; color < kMostContacts && at < range.y; color++) {
@@ -188,23 +152,41 @@ void sweep(uint lane, uvec2 range) {
 // Colors are walked through twice for each iteration. Bodies get their push before the first sweep and move before the middle one. It
 // costs a sweep as much as a few contacts to see that it does neither. Impacts come after each move, before a sweep holds back what is
 // about to meet; and, in a pass of their own, before the first sweep of a step.
-void solveSubstep(uint lane, uvec2 range, uint first, uint substep, uint turns, vec3 falls) {
-    uint pushes = push_.iterations, relaxes = push_.iterations;
+// `settles`: an island begins to touch. Where it does so at rest, friction needs several sweeps to find what it has to hold. What has
+// slipped by then would slide on for long where friction hardly holds it.
+void solveSubstep(uint lane, uvec2 range, uint first, uint substep, uint turns, bool settles, vec3 falls) {
+    uint pushes = push_.iterations, relaxes = push_.iterations, more = 0u;
+    bool strikes = false, watches = false;
     for (uint pass = substep == 0u ? 0u : 1u; pass <= pushes + relaxes; pass++) {
         bool begins = pass == 1u, moves = pass == pushes + 1u, is_first = begins || moves;
         with_push = pass <= pushes ? (begins ? PUSH_FIRST : PUSH_AGAIN) : (moves ? RELAX_FIRST : RELAX_AGAIN);
         for (uint k = lane; k < (begins ? member_count : 0u); k += LANES) pushBody(members[first + k], falls);
         for (uint k = lane; k < (moves ? member_count : 0u); k += LANES) moveBody(members[first + k], gravity.w);
+        watches = watches && more != 0u && !is_first;
+        watch(lane, watches ? range : range.yy);
         if (lane == 0u && is_first) hit = struck = 0u;
         sync();
 #ifdef BOUNCE
         meetAll(lane, range, moves || pass == 0u);
 #endif
         sweep(lane, pass != 0u ? range : range.yy);
-        uint more = moreSweeps(anyStruckTwice(lane, range, is_first, 0x80000000u | 2u * substep | (moves ? 1u : 0u)), turns);
-        pushes += begins ? more : 0u;
-        relaxes += moves ? more : 0u;
+        more -= watches ? 0u : min(more, 1u);
+        for (uint k = 0u; k < (watches ? 1u : 0u); k++) {
+            uint skipped = isDone(lane, range, more % 3u == 1u && more > 1u) ? more - 1u : 0u;
+            pushes -= pass <= pushes ? skipped : 0u;
+            relaxes -= pass > pushes ? skipped : 0u;
+            more -= skipped + 1u;
+        }
+        bool is_struck = anyStruck(lane, range, is_first, 0x80000000u | 2u * substep | (moves ? 1u : 0u));
+        uint found = moreSweeps(is_struck, moves && settles && !was_hit, turns);
+        watches = watches || (is_struck && sweepsOn());
+        strikes = strikes || watches;
+        pushes += begins ? found : 0u;
+        relaxes += moves ? found : 0u;
+        more += found;
     }
+    uint end = strikes ? range.y : range.x;
+    for (uint c = range.x + lane; c < end; c += LANES) forgetBlow(c);
 }
 
 // The other dispatches of this step have as many workgroups as this one.
@@ -223,8 +205,13 @@ void main() {
     if (lane == 0u) {
         member_count = begins ? 0u : members[first - 2u];
         most_sides = 0u;
+        heaviest = 0u;
     }
     barrier();
+    for (uint c = range.x + lane; c < range.y; c += LANES) {
+        weigh(solver_contacts[c].ids.x);
+        weigh(solver_contacts[c].ids.y);
+    }
     uvec2 to_begin = begins ? range : range.xx;
     listMembers(lane, to_begin, first);
     sync();
@@ -243,7 +230,8 @@ void main() {
     uint made = begins ? 0u : members[first - 1u], at_once = push_.parts > 1u ? substepsAtOnce(turns) : pace;
     float lag = steps[STEPS_MADE] == 0u ? 0.5 * push_.gravity.w / float(push_.substeps) : 0.0;
     for (uint substep = made; substep < min(made + at_once, pace); substep++)
-        solveSubstep(lane, range, first, substep, turns, (gravity.w + (substep == 0u ? lag : 0.0)) * gravity.xyz);
+        solveSubstep(lane, range, first, substep, turns, begins && substep == 0u && last_pace == 0u && !rubs_in_push,
+                     (gravity.w + (substep == 0u ? lag : 0.0)) * gravity.xyz);
     if (lane != 0u) return;
     members[first - 2u] = member_count;
     members[first - 1u] = min(made + at_once, pace);

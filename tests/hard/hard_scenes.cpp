@@ -98,6 +98,7 @@ constexpr SceneCase kCases[] = {
     {"hard_40_compounds_300", stopWhereTheyTouch, 300},
     {"hard_40_compounds_1000", stopWhereTheyTouch, 1000},
     {"hard_41_slope_99", liesForMinutes, 0, kLong},
+    {"hard_42_scales", movesAlikeAtEveryScale},
 };
 
 } // namespace

@@ -19,5 +19,6 @@ void isTheSameHoweverMade(Trial& trial, const SceneCase& self);
 void movesAsTheReference(Trial& trial, const SceneCase& self);
 void weighsAlike(Trial& trial, const SceneCase& self);
 void scalesAlike(Trial& trial, const SceneCase& self);
+void movesAlikeAtEveryScale(Trial& trial, const SceneCase& self);
 
 } // namespace hard

@@ -71,7 +71,7 @@ void expectSound(const SceneDescription& scene, uint32_t steps) {
         all += std::max(rise, 0.0);
         last = energy;
         least = std::min(least, energy);
-        EXPECT_GT(lowestOf(run), -scene.step.margin) << step;
+        EXPECT_GT(lowestOf(run), -0.02) << step;
         const bool whole = run.world().counts()->broken == 0;
         if (whole) fastest = std::max(fastest, run.fastest());
         const double falling = 2 * brittle::length(scene.gravity) * std::max(height, 0.0);

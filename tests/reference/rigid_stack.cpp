@@ -94,12 +94,13 @@ uint32_t bidOf(size_t contact) { return (static_cast<uint32_t>(contact) * 0x9e37
 } // namespace
 
 RigidStack::RigidStack(const std::vector<StackedBox>& boxes, const StackSettings& settings) : settings_(settings) {
-    const double h = settings.dt / settings.substeps, hertz = std::min(settings.contact_hertz, 0.125 / h);
+    const double h = settings.dt / settings.substeps, most = 0.125 / h;
+    const double hertz = settings.contact_hertz > 0 ? std::min(settings.contact_hertz, most) : most;
     solve_.gravity = settings.gravity;
     solve_.seconds = h;
     solve_.soft = softnessOf(hertz, settings.contact_damping, h);
     solve_.stiff = softnessOf(2 * hertz, settings.contact_damping / 2, h);
-    solve_.fastest_push = settings.push_out;
+    solve_.fastest_push = settings.push_out > 0 ? settings.push_out : 3;
     for (const StackedBox& box : boxes) {
         bodies_.push_back(bodyOf(box));
         radii_.push_back(radiusOf(box));
@@ -177,6 +178,10 @@ void RigidStack::substep() {
     for (RigidBody& body : bodies_)
         body.moveFor(solve_.seconds);
     solveAll(false);
+    // What touches for the first time settles at once.
+    for (int sweep = 0; sweep < 8 && !has_settled_; ++sweep)
+        solveAll(false);
+    has_settled_ = true;
 }
 
 void RigidStack::step() {

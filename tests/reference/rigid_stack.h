@@ -49,6 +49,7 @@ private:
     StackSettings settings_;
     SolveSettings solve_;
     std::vector<RigidBody> bodies_, first_;
+    bool has_settled_ = false; // contacts have been solved before
     std::vector<double> radii_;
     std::vector<SoftContact> contacts_; // in the order of their bodies
 };

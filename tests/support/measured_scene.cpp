@@ -141,7 +141,8 @@ bool MeasuredScene::isFinite() const {
 
 std::vector<reference::SolidBox> MeasuredScene::sweptBoxes(double more) const {
     std::vector<reference::SolidBox> boxes;
-    const double margin = 0.5 * scene_.step.margin + more;
+    const double sixtieths = 60 * scene_.step.dt, usual = 0.02 * sixtieths * sixtieths;
+    const double margin = 0.5 * (scene_.step.margin > 0 ? scene_.step.margin : usual) + more;
     for (size_t p = 0; p < contents_.pieces.size(); ++p) {
         const uint32_t body = contents_.pieces[p].ids.y;
         const gpu::BodyState& state = last_[body];

@@ -98,7 +98,7 @@ public:
                    orAll(room_.pairs),
                    orAll(room_.contacts),
                    static_cast<float>(s.settings.dt),
-                   static_cast<float>(s.settings.margin),
+                   static_cast<float>(contactMargin(s.settings)),
                    kPause};
         if (struck)
             s.record.runGroups("admit_strikes", 1, admit,

@@ -40,7 +40,7 @@ engine::Result<void> recordTurning(const Step& s, const LastingBuffers& l, const
     const struct {
         MeetingPush meeting;
         float margin;
-    } push = {meetingPush(s), static_cast<float>(s.settings.margin)};
+    } push = {meetingPush(s), static_cast<float>(contactMargin(s.settings))};
     s.record.run("judge_turning", kTurning, push,
                  {s.record.counts(), p.turning, s.b.step.manifolds, s.b.bodies, s.b.shapes, s.b.step.solver_bodies, l.breakable,
                   l.cards, s.b.steps, p.blows, s.now.contacts, s.b.step.touches});

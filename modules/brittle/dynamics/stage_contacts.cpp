@@ -34,7 +34,7 @@ void recordRecall(const Step& s) {
     struct Push {
         float gravity[4], speculative;
         uint32_t recycling;
-    } push = {{g[0], g[1], g[2], sweptFor(s)}, static_cast<float>(s.settings.margin), s.settings.recycling ? 1u : 0u};
+    } push = {{g[0], g[1], g[2], sweptFor(s)}, static_cast<float>(contactMargin(s.settings)), s.settings.recycling ? 1u : 0u};
     s.record.run(
         "recall_contacts", kPairs, push,
         {r.counts(), s.now.pairs, s.last.count, s.last.pairs, s.last.contacts, s.b.bodies, s.b.shapes, b.recalled, b.fresh});
@@ -62,7 +62,7 @@ void recordPieceBoxes(const Step& s) {
     struct Push {
         float gravity[4];
         float margin;
-    } push = {{0, 0, 0, static_cast<float>(s.settings.dt)}, static_cast<float>(s.settings.margin / 2)};
+    } push = {{0, 0, 0, static_cast<float>(s.settings.dt)}, static_cast<float>(contactMargin(s.settings) / 2)};
     s.record.run(
         "bound_pieces", Length::counted(COUNT_BOXES), push,
         {s.record.counts(), s.b.pieces, s.b.bodies, s.b.hull_records, s.b.hull_vertices, s.b.step.box_low, s.b.step.box_high});
@@ -85,7 +85,7 @@ void recordBoxes(const Step& s) {
 engine::Result<void> recordPoints(const Step& s, const NarrowPhaseInput& input, const Float3& gravity) {
     const StepBuffers& b = s.b.step;
     NarrowPhaseOptions options;
-    options.speculative = static_cast<float>(s.settings.margin);
+    options.speculative = static_cast<float>(contactMargin(s.settings));
     options.duration = sweptFor(s);
     options.gravity = gravity;
     options.fixed_axes = s.settings.fixed_axes;

@@ -10,6 +10,7 @@
 namespace brittle {
 namespace {
 
+constexpr double kNoLimit = 1e30; // Hz
 constexpr Length kContacts = {0, COUNT_CONTACTS}, kBodies = {0, COUNT_BODIES};
 
 // A soft constraint (Catto, "Soft Constraints", 2011): how fast overlap is pushed out, and the shares of mass and impulse.
@@ -112,9 +113,9 @@ void recordSmallIslands(const Step& s) {
     const std::string kernel = std::string(s.bounces ? "bounce" : "solve") + (s.many_lanes ? "_islands_wide" : "_islands");
     gpu::PacePush push{};
     push.gravity = fallingOf(s);
-    push.hertz = static_cast<float>(set.contact_hertz);
+    push.hertz = static_cast<float>(set.contact_hertz > 0 ? set.contact_hertz : kNoLimit);
     push.damping = static_cast<float>(set.contact_damping);
-    push.push_out = static_cast<float>(set.push_out);
+    push.push_out = static_cast<float>(pushOut(set));
     push.least_bounce = static_cast<float>(set.bounce_speed);
     push.substeps = set.substeps;
     push.most_substeps = std::max(set.substeps, set.most_substeps);
@@ -135,7 +136,7 @@ void recordHolding(const Step& s) {
     if (!s.has(Effect::Ccd)) return;
     const StepBuffers& b = s.b.step;
     const gpu::vec4 falling = fallingOf(s);
-    const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(s.settings.margin)};
+    const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(contactMargin(s.settings))};
     s.record.run("hold_back", Length::counted(COUNT_SWIFT), push,
                  {s.record.counts(), b.contact_pairs, s.now.pairs, s.now.contacts, s.b.pieces, s.b.hull_records,
                   s.b.hull_vertices, s.b.bodies, s.b.shapes, b.solver_bodies, b.shares});
@@ -155,7 +156,7 @@ gpu::SolverPush solverPush(const Step& s) {
     gpu::SolverPush push{};
     push.gravity = {static_cast<float>(set.gravity[0]), static_cast<float>(set.gravity[1]), static_cast<float>(set.gravity[2]),
                     static_cast<float>(h)};
-    push.soft = softness(hertz, set.contact_damping, h, set.push_out);
+    push.soft = softness(hertz, set.contact_damping, h, pushOut(set));
     push.substeps = set.substeps;
     push.stiff = softness(2 * hertz, 0.5 * set.contact_damping, h, set.bounce_speed);
     return push;

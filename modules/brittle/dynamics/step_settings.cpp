@@ -1,7 +1,9 @@
 #include "modules/brittle/dynamics/step_settings.h"
+#include "modules/brittle/mesh/vector_math.h"
 
 #include "shaders-spirv/shared/effects.h"
 #include "shaders-spirv/shared/fracture.h"
+#include "shaders-spirv/shared/solver.h"
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +25,20 @@ uint32_t dragWord(const StepSettings& s) {
 
 } // namespace
 
-double contactHertz(const StepSettings& s) { return std::min(s.contact_hertz, 0.125 * s.substeps / s.dt); }
+double contactHertz(const StepSettings& s) {
+    const double most = STIFFEST * s.substeps / s.dt;
+    return s.contact_hertz > 0 ? std::min(s.contact_hertz, most) : most;
+}
+
+double contactMargin(const StepSettings& s) {
+    constexpr double kUsual = 0.02, kUsualStep = 1.0 / 60;
+    return s.margin > 0 ? s.margin : kUsual * (s.dt / kUsualStep) * (s.dt / kUsualStep);
+}
+
+double pushOut(const StepSettings& s) {
+    constexpr double kLeast = 3, kFalls = 18;
+    return s.push_out > 0 ? s.push_out : std::max(kLeast, kFalls * s.dt * length(s.gravity));
+}
 
 float leastVolumeOf(const StepSettings& s) {
     return static_cast<float>(s.smallest_piece * s.smallest_piece * s.smallest_piece);
@@ -38,7 +53,7 @@ Result<void> checkSettings(const StepSettings& s) {
         return refuse(std::to_string(s.most_substeps) + " substeps at the most; give 1 to 2000");
     if (s.substeps < 1 || s.substeps > 64) return refuse(std::to_string(s.substeps) + " substeps; give 1 to 64");
     if (s.iterations < 1 || s.iterations > 64) return refuse(std::to_string(s.iterations) + " iterations; give 1 to 64");
-    if (!(s.contact_hertz > 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
+    if (!(s.contact_hertz >= 0 && s.contact_hertz <= 1e4) || !(s.contact_damping >= 0 && s.contact_damping <= 1e4))
         return refuse("contacts of that frequency or damping; give 0 to 1e4");
     if (!(s.push_out >= 0 && s.push_out <= 1e4) || !(s.bounce_speed >= 0))
         return refuse("a push-out or a speed of bouncing that is negative or no number");

@@ -17,10 +17,10 @@ struct StepSettings {
     uint32_t most_substeps = 1500; // that an island takes whose loads need more (shaders-spirv/lib/pace.glsl), 1 to 2000
     uint32_t iterations = 1;       // over all contacts, with push and without, in each substep: 1 to 64
     bool contacts = true;          // without them bodies fly and fall through each other, and nothing is looked for or solved
-    double contact_hertz = 30;     // of the spring that pushes overlap out, no more than an eighth of the substeps a second
+    double contact_hertz = 0;      // of the spring that pushes overlap out; 0: as stiff as the substeps allow
     double contact_damping = 10;
-    double push_out = 3;        // m/s, the most that overlap is pushed out with
-    double margin = 0.02;       // m: points that are still so far apart are contacts already
+    double push_out = 0;        // m/s, the most that overlap is pushed out with; 0: 3 m/s, or more under great gravity
+    double margin = 0;          // m: points that are still so far apart are contacts already; 0: contactMargin()
     double bounce_speed = 0.25; // m/s: what comes in slower does not bounce
     bool hard_solver = false;   // heaps get all substeps that their loads need, as stacks do, and all get twice as many
     uint32_t fixed_axes = 0;    // of the narrow phase; 0: all axes of both hulls
@@ -51,8 +51,17 @@ struct StepSettings {
     double debris_fade = 1;        // s
 };
 
-// The frequency of the spring that pushes overlap out, in substeps of `settings`: stiffer ones would not come to rest.
+// Hz. The frequency of the spring that pushes overlap out: that of the settings, but at most an eighth of the substeps a
+// second. Stiffer springs would not come to rest.
 double contactHertz(const StepSettings& settings);
+
+// m. How far apart points may be to count as contacts: that of the settings, or 2 cm at 60 steps a second. What moves by
+// gravity in a step goes with the square of the step, and so does the margin.
+double contactMargin(const StepSettings& settings);
+
+// m/s. The most that overlap is pushed out with: that of the settings, or the larger of 3 m/s and what gravity gives in 18
+// steps.
+double pushOut(const StepSettings& settings);
 
 // m3, that a body has at the least.
 float leastVolumeOf(const StepSettings& settings);

@@ -113,11 +113,11 @@ struct StepDescription {
     uint32_t most_substeps = 1500;
     uint32_t iterations = 1;
     SolverKind solver = SolverKind::Soft;
-    double contact_hertz = 30;
+    double contact_hertz = 0;
     double contact_damping = 10;
-    double push_out = 3;
+    double push_out = 0;
     double bounce_speed = 0.25;
-    double margin = 0.02;
+    double margin = 0;
     bool recycling = true;
     AxisKind axes = AxisKind::All;
     bool operator==(const StepDescription&) const = default;

@@ -91,13 +91,17 @@ constexpr SceneKey kStepKeys[] = {
     {"solver", at<&StepDescription::solver>, oneOf(kSolvers), "",
      "soft: heaps take only as many substeps as are cheap; hard, for great mass ratios and loads: four times `substeps` at the "
      "least, heaps as many as their loads need, and twice as many for the same load"},
-    {"contact_hertz", at<&StepDescription::contact_hertz>, from(1, 1e4), "1/s",
-     "stiffness of soft contacts; an eighth of the substeps a second at most counts"},
+    {"contact_hertz", at<&StepDescription::contact_hertz>, from(0, 1e4), "1/s",
+     "frequency of soft contacts, at most an eighth of the substeps a second; 0: as much as that"},
     {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},
-    {"push_out", at<&StepDescription::push_out>, from(0, 1e3), "m/s", "at most so fast overlap is undone"},
+    {"push_out", at<&StepDescription::push_out>, from(0, 1e3), "m/s",
+     "the most that overlap is undone with; 0: 3 m/s, or what gravity gives in 18 steps if that is more"},
     {"bounce_speed", at<&StepDescription::bounce_speed>, from(0, 1e4), "m/s",
      "what meets more slowly does not bounce; acts where `effects` has restitution"},
-    {"margin", at<&StepDescription::margin>, from(0, 1), "m", "contacts are looked for at this distance already"},
+    {"margin", at<&StepDescription::margin>, from(0, 1), "m",
+     "contacts are looked for at this distance already, and at a tenth of the smaller piece's radius at most; 0: 2 cm at 60 "
+     "steps a "
+     "second, less for shorter steps, by the square of the step"},
     {"recycling", at<&StepDescription::recycling>, kAnything, "", "contacts at rest keep their anchors from step to step"},
     {"axes", at<&StepDescription::axes>, oneOf(kAxes), "",
      "separating axes: all of two hulls, or a fixed set, which is looser and cheaper"},

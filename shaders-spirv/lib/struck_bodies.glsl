@@ -1,0 +1,169 @@
+// What a substep does where bodies strike others.
+//
+// Contacts that take turns once do not part bodies that are struck in several contacts at once, such as a compound that flies into a
+// wall, or a stack that falls as one. Nor do they stop a heavy body that falls on a light one: the light one takes as much as it weighs
+// in each sweep. So more sweeps follow, until little is left to be done.
+//
+// After a few sweeps impulses change by almost the same in each. So every third sweep makes its change once more, as many times as
+// takes the most energy from the bodies (an exact line search).
+//
+// Wants lib/solve_contact.glsl and lib/pace.glsl, sync(), `turns_left` and the buffer `heights`, whose words are free in a substep.
+shared uint hit, struck, heaviest; // heaviest: kg, as bits
+const uint kMostSweeps = 30u, kSweepsOfHeaps = 15u, kSweepsToSettle = 8u;
+const float kEnough = 1e-5;      // of the greatest impulse
+const float kMostRepeated = 1e4; // times
+
+// The soft solver does with less, and so do heaps: there sweeps follow only where a body is struck in two contacts.
+bool sweepsOn() { return push_.heaps_too != 0u && !rubs_in_push; }
+
+bool was_hit; // whether anything came in fast when the last sweep of a kind began
+
+vec4 impulsesOf(uint c, uint points) {
+    vec4 impulses = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) impulses[k] = k < points ? solver_contacts[c].points[k].pulse.x : 0.0;
+    return impulses;
+}
+
+float greatestOf(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+
+// How much speed of separation each point lacks. Negative: it comes in too fast.
+vec4 speedsLacking(uint c, uint points) {
+    vec3 normal = solver_contacts[c].normal.xyz;
+    Touching t = touchingOf(c, solver_contacts[c].ids, normal);
+    vec4 spring = springOf(c), lacks = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        SolverPoint p = solver_contacts[c].points[k];
+        vec3 demand = demandOf(separationOf(p, t, normal), p.pulse, spring);
+        float gives = demand.z / demand.y * inverseOf(massAt(p, normal, t)) * max(p.pulse.x - solver_contacts[c].loads[k], 0.0);
+        lacks[k] = k < points ? speedAt(p, normal, t) + demand.x + gives : 0.0;
+    }
+    return lacks;
+}
+
+bool comesInStill(uint c, uint points) {
+    vec4 lacks = speedsLacking(c, points);
+    bool comes = false;
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        SolverPoint p = solver_contacts[c].points[k];
+        comes = comes || (k < points && lacks[k] < -MEETING_SHARE * blowSpeed(p.arm_a.xyz, p.arm_b.xyz));
+    }
+    return comes;
+}
+
+// `stamp`: of this sweep.
+void noteStrike(uint body, uint other, bool is_blow, uint stamp) {
+    float inverse = solver_bodies[body].velocity.w;
+    if (inverse == 0.0) return;
+    float others = solver_bodies[other].velocity.w;
+    if (sweepsOn() && others > 0.0 && inverse > kMuchHeavier * others) struck = 1u;
+    if (is_blow && atomicExchange(heights[body], stamp) == stamp) struck = 1u;
+}
+
+void noteStrikes(uint c, uint stamp) {
+    uvec4 ids = solver_contacts[c].ids;
+    float fastest = haste(c, ids.z);
+    if (sweepsOn() && comesInStill(c, ids.z)) struck = 1u;
+    if (fastest < POINT_MET || greatestOf(impulsesOf(c, ids.z)) == 0.0) return;
+    noteStrike(ids.x, ids.y, fastest >= POINT_HIT, stamp);
+    noteStrike(ids.y, ids.x, fastest >= POINT_HIT, stamp);
+}
+
+bool anyStruck(uint lane, uvec2 range, bool wanted, uint stamp) {
+    uint end = wanted ? range.y : range.x;
+    for (uint c = range.x + lane; c < end; c += LANES)
+        if (haste(c, solver_contacts[c].ids.z) >= POINT_MET) hit = 1u;
+    barrier();
+    was_hit = hit != 0u;
+    end = was_hit ? end : range.x;
+    for (uint c = range.x + lane; c < end; c += LANES) noteStrikes(c, stamp);
+    barrier();
+    bool found = wanted && struck != 0u;
+    barrier();
+    return found;
+}
+
+// Of more sweeps of this kind, as many as this one calls for at the most.
+uint moreSweeps(bool is_struck, bool settles, uint turns) {
+    uint wanted = is_struck ? (sweepsOn() ? kMostSweeps : kSweepsOfHeaps) : settles ? kSweepsToSettle : 0u;
+    uint more = min(wanted, turns_left / turns);
+    turns_left -= more * turns;
+    return more;
+}
+
+void watch(uint lane, uvec2 range) {
+    for (uint c = range.x + lane; c < range.y; c += LANES) {
+        uint points = solver_contacts[c].ids.z;
+        solver_contacts[c].before = impulsesOf(c, points);
+        solver_contacts[c].lacks = speedsLacking(c, points);
+    }
+}
+
+// What the sweep has done to all contacts. Every lane adds them up in the same order.
+vec4 doneBy(uint lane, uvec2 range) {
+    for (uint c = range.x + lane; c < range.y; c += LANES) {
+        uint points = solver_contacts[c].ids.z;
+        vec4 now = impulsesOf(c, points), change = now - solver_contacts[c].before, lacks = speedsLacking(c, points);
+        solver_contacts[c].lacks = vec4(-dot(change, lacks), dot(change, lacks - solver_contacts[c].lacks), greatestOf(abs(change)),
+                                        greatestOf(now));
+    }
+    sync();
+    vec4 sum = vec4(0.0);
+    for (uint c = range.x; c < range.y; c++) {
+        vec4 one = solver_contacts[c].lacks;
+        sum = vec4(sum.xy + one.xy, max(sum.zw, one.zw));
+    }
+    return sum;
+}
+
+// As if the last sweep had been made `times` more.
+void repeatChange(uint c, float times) {
+    uvec4 ids = solver_contacts[c].ids;
+    vec3 normal = solver_contacts[c].normal.xyz;
+    Touching t = touchingOf(c, ids, normal);
+    vec4 before = solver_contacts[c].before;
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        if (k >= ids.z) continue;
+        SolverPoint p = solver_contacts[c].points[k];
+        float total = max(p.pulse.x + times * (p.pulse.x - before[k]), 0.0);
+        pushApart(t, p.arm_a.xyz, p.arm_b.xyz, (total - p.pulse.x) * normal);
+        solver_contacts[c].points[k].pulse.x = total;
+    }
+    keepMotion(ids.x, t.a);
+    keepMotion(ids.y, t.b);
+}
+
+void repeatChanges(uint lane, uvec2 range, float times) {
+    uint at = times > 0.0 ? range.x : range.y;
+    for (uint color = 0u; color < kMostContacts && at < range.y; color++) {
+        uint end = color_ends[at];
+        for (uint c = at + lane; c < end; c += LANES) repeatChange(c, times);
+        sync();
+        at = end;
+    }
+}
+
+// `repeats`: the change of the last sweep is made more often. Whether little is left to be done.
+bool isDone(uint lane, uvec2 range, bool repeats) {
+    vec4 done = doneBy(lane, range);
+    float times = done[SWEEP_LOSS] > 0.0 ? clamp(done[SWEEP_GAIN] / done[SWEEP_LOSS], 0.0, kMostRepeated) : 0.0;
+    bool is_enough = max(times, 1.0) * done[SWEEP_CHANGE] <= kEnough * done[SWEEP_PRESSED];
+    sync();
+    repeatChanges(lane, range, repeats && !is_enough ? times : 0.0);
+    return is_enough;
+}
+
+// Where bodies were struck, all contacts around took a part of the blow, and not only those that were hit. Applied again in the next
+// substep, it would throw a light body out from under a heavy one. So a contact keeps what it had before, or what the heaviest body
+// weighs in a substep: that may be a load that is there to stay.
+void forgetBlow(uint c) {
+    uint points = solver_contacts[c].ids.z;
+    float now = dot(impulsesOf(c, points), vec4(1.0)), weight = gravity.w * length(gravity.xyz) * uintBitsToFloat(heaviest);
+    float kept = max(dot(solver_contacts[c].first, vec4(1.0)), weight), share = now > kept ? kept / now : 1.0;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < points; k++) solver_contacts[c].points[k].pulse.x *= share;
+    if (kFriction != 0u) solver_contacts[c].rub.xyz *= share;
+}
+
+void weigh(uint body) {
+    float inverse = solver_bodies[body].velocity.w;
+    if (inverse > 0.0) atomicMax(heaviest, floatBitsToUint(1.0 / inverse));
+}
