@@ -9,6 +9,6 @@ float haste(uint c, uint points) {
     return most;
 }
 
-// What a contact was rubbed with in a blow says nothing about the next substep.
+// Friction in a blow tells nothing about friction in the next substep.
 bool isBlow(uint c, uint points) { return haste(c, points) >= POINT_HIT; }
 #endif

@@ -1,7 +1,7 @@
 // How fast a point has to come in to be hit by a blow.
 //
 // The impulse of a blow is forgotten in the next substep, that of a load is not. A load that was forgotten with a blow comes in again
-// at the speed that gravity gives to all that it carries. So the limit lies above what gravity gives in a step. Where there is little
+// at the speed that gravity gives to all that it carries. So the limit lies above what gravity gives in a step. Under little
 // or no gravity, a part of the shorter arm in a step counts. Both scale with lengths and times alike.
 //
 // Wants wholeStep(), the seconds of a step, and `gravity` declared.

@@ -13,7 +13,8 @@
 // spinning yields a hundred times as much in the next substep: an impulse that goes by what it was would add energy without end.
 //
 // Wants `solver_bodies` and `solver_contacts` declared, and `gravity`, `soft`, `stiff`, `with_push` as in SolverPush. `rubs_in_push`:
-// friction acts in the push, too. It lets heaps settle; heavy bodies on light ones would rock.
+// friction acts in the push, too. It lets heaps settle; heavy bodies on light ones would rock. `keeps_first`: contacts keep the
+// impulses with which a substep begins.
 #include "lib/solver_body.glsl"
 #include "lib/approach.glsl"
 #include "lib/blow.glsl"
@@ -132,9 +133,7 @@ void pressContact(uint c, vec3 normal, uint points, vec4 spring, inout Touching 
         demands[k] = demandOf(separationOf(p[k], t, normal), p[k].pulse, spring);
         first[k] = k < points ? p[k].pulse.x : 0.0;
     }
-#ifdef KEEPS_FIRST_IMPULSES
-    if (with_push == PUSH_FIRST) solver_contacts[c].first = first;
-#endif
+    if (keeps_first && with_push == PUSH_FIRST) solver_contacts[c].first = first;
     solveTogether(c, p, demands, points, normal, t);
     vec4 loads = solver_contacts[c].loads;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)

@@ -8,5 +8,5 @@ layout(push_constant) uniform Push {
     uint first_substep;
     uint substeps;
 };
-const bool rubs_in_push = true;
+const bool rubs_in_push = true, keeps_first = false;
 float wholeStep() { return float(substeps) * gravity.w; }

@@ -1,4 +1,4 @@
-// What a substep does where bodies strike others.
+// Blows in a substep: bodies that strike others.
 //
 // Contacts that take turns once do not part bodies that are struck in several contacts at once, such as a compound that flies into a
 // wall, or a stack that falls as one. Nor do they stop a heavy body that falls on a light one: the light one takes as much as it weighs
@@ -8,7 +8,7 @@
 // takes the most energy from the bodies (an exact line search).
 //
 // Wants lib/solve_contact.glsl and lib/pace.glsl, sync(), `turns_left` and the buffer `heights`, whose words are free in a substep.
-shared uint hit, struck, heaviest; // heaviest: kg, as bits
+shared uint hit, struck, heaviest; // hit: as haste() gives it, of the fastest contact; heaviest: kg, as bits
 const uint kMostSweeps = 30u, kSweepsOfHeaps = 15u, kSweepsToSettle = 8u;
 const float kEnough = 1e-5;      // of the greatest impulse
 const float kMostRepeated = 1e4; // times
@@ -62,7 +62,6 @@ void noteStrike(uint body, uint other, bool is_blow, uint stamp) {
 void noteStrikes(uint c, uint stamp) {
     uvec4 ids = solver_contacts[c].ids;
     float fastest = haste(c, ids.z);
-    if (sweepsOn() && comesInStill(c, ids.z)) struck = 1u;
     if (fastest < POINT_MET || greatestOf(impulsesOf(c, ids.z)) == 0.0) return;
     noteStrike(ids.x, ids.y, fastest >= POINT_HIT, stamp);
     noteStrike(ids.y, ids.x, fastest >= POINT_HIT, stamp);
@@ -70,19 +69,24 @@ void noteStrikes(uint c, uint stamp) {
 
 bool anyStruck(uint lane, uvec2 range, bool wanted, uint stamp) {
     uint end = wanted ? range.y : range.x;
-    for (uint c = range.x + lane; c < end; c += LANES)
-        if (haste(c, solver_contacts[c].ids.z) >= POINT_MET) hit = 1u;
+    for (uint c = range.x + lane; c < end; c += LANES) {
+        float fastest = haste(c, solver_contacts[c].ids.z);
+        if (fastest >= POINT_MET) atomicMax(hit, uint(fastest));
+    }
     barrier();
-    was_hit = hit != 0u;
-    end = was_hit ? end : range.x;
+    was_hit = float(hit) >= POINT_MET;
+    end = float(hit) >= (sweepsOn() ? POINT_MET : POINT_HIT) ? end : range.x;
     for (uint c = range.x + lane; c < end; c += LANES) noteStrikes(c, stamp);
+    end = sweepsOn() ? end : range.x; // a loop that turns zero times costs nothing where an `if` would
+    for (uint c = range.x + lane; c < end; c += LANES)
+        if (comesInStill(c, solver_contacts[c].ids.z)) struck = 1u;
     barrier();
     bool found = wanted && struck != 0u;
     barrier();
     return found;
 }
 
-// Of more sweeps of this kind, as many as this one calls for at the most.
+// The number of sweeps of this kind that follow at the most.
 uint moreSweeps(bool is_struck, bool settles, uint turns) {
     uint wanted = is_struck ? (sweepsOn() ? kMostSweeps : kSweepsOfHeaps) : settles ? kSweepsToSettle : 0u;
     uint more = min(wanted, turns_left / turns);
@@ -98,7 +102,7 @@ void watch(uint lane, uvec2 range) {
     }
 }
 
-// What the sweep has done to all contacts. Every lane adds them up in the same order.
+// SWEEP_* of the last sweep, for all contacts together. Every lane adds them up in the same order.
 vec4 doneBy(uint lane, uvec2 range) {
     for (uint c = range.x + lane; c < range.y; c += LANES) {
         uint points = solver_contacts[c].ids.z;
@@ -115,7 +119,7 @@ vec4 doneBy(uint lane, uvec2 range) {
     return sum;
 }
 
-// As if the last sweep had been made `times` more.
+// Changes the impulses of a contact by `times` their change in the last sweep.
 void repeatChange(uint c, float times) {
     uvec4 ids = solver_contacts[c].ids;
     vec3 normal = solver_contacts[c].normal.xyz;
@@ -142,7 +146,7 @@ void repeatChanges(uint lane, uvec2 range, float times) {
     }
 }
 
-// `repeats`: the change of the last sweep is made more often. Whether little is left to be done.
+// Tells whether little is left to be done. If not, and if `repeats`, makes the change of the last sweep more often.
 bool isDone(uint lane, uvec2 range, bool repeats) {
     vec4 done = doneBy(lane, range);
     float times = done[SWEEP_LOSS] > 0.0 ? clamp(done[SWEEP_GAIN] / done[SWEEP_LOSS], 0.0, kMostRepeated) : 0.0;
@@ -166,4 +170,14 @@ void forgetBlow(uint c) {
 void weigh(uint body) {
     float inverse = solver_bodies[body].velocity.w;
     if (inverse > 0.0) atomicMax(heaviest, floatBitsToUint(1.0 / inverse));
+}
+
+void weighBodies(uint lane, uvec2 range) {
+    if (lane == 0u) heaviest = 0u;
+    barrier();
+    for (uint c = range.x + lane; c < range.y; c += LANES) {
+        weigh(solver_contacts[c].ids.x);
+        weigh(solver_contacts[c].ids.y);
+    }
+    barrier();
 }

@@ -87,7 +87,7 @@ GPU_NAMESPACE_BEGIN
 // way. Stacks would sway by it: small islands that are no heaps take more substeps instead, and do without.
 #define LOAD_CARRIED 0.75
 #define LOAD_FOLLOWED 0.2 /* of the difference, a step */
-// Of a point: whether it pressed when sweeps of this kind began; and, added to that, whether it came in fast in this substep.
+// State of a point: whether it pressed when sweeps of this kind began; and, added to that, how fast it came in in this substep.
 #define POINT_PRESSED 0.0
 #define POINT_FREE 1.0
 #define POINT_MET 2.0     /* faster than a load comes in that is known */
@@ -100,8 +100,8 @@ GPU_NAMESPACE_BEGIN
 #define ARMS_STAY 1 /* one of them does not move */
 #define ARMS_OF_B_FOLLOW 2
 
-// Of a sweep over a contact: what its change of impulses would still gain, and lose, if made again (solve_islands); the
-// greatest change and the greatest impulse.
+// Components of what a sweep has done to a contact (solve_islands). Made again, its change of impulses would gain the first and
+// lose the second, in J. The others are the greatest change of an impulse and the greatest impulse, in N s.
 #define SWEEP_GAIN 0
 #define SWEEP_LOSS 1
 #define SWEEP_CHANGE 2

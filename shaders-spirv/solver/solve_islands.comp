@@ -40,9 +40,9 @@ layout(push_constant) uniform Push { PacePush push_; };
 
 vec4 gravity, soft, stiff; // as in SolverPush, for this island
 uint with_push;
-bool rubs_in_push; // where contacts carry loads
+bool rubs_in_push; // if contacts carry loads
+bool keeps_first;
 float wholeStep() { return push_.gravity.w; }
-#define KEEPS_FIRST_IMPULSES
 #include "lib/solve_contact.glsl"
 #include "lib/push_body.glsl"
 #include "lib/move_body.glsl"
@@ -152,6 +152,7 @@ void sweep(uint lane, uvec2 range) {
 // Colors are walked through twice for each iteration. Bodies get their push before the first sweep and move before the middle one. It
 // costs a sweep as much as a few contacts to see that it does neither. Impacts come after each move, before a sweep holds back what is
 // about to meet; and, in a pass of their own, before the first sweep of a step.
+//
 // `settles`: an island begins to touch. Where it does so at rest, friction needs several sweeps to find what it has to hold. What has
 // slipped by then would slide on for long where friction hardly holds it.
 void solveSubstep(uint lane, uvec2 range, uint first, uint substep, uint turns, bool settles, vec3 falls) {
@@ -205,13 +206,8 @@ void main() {
     if (lane == 0u) {
         member_count = begins ? 0u : members[first - 2u];
         most_sides = 0u;
-        heaviest = 0u;
     }
     barrier();
-    for (uint c = range.x + lane; c < range.y; c += LANES) {
-        weigh(solver_contacts[c].ids.x);
-        weigh(solver_contacts[c].ids.y);
-    }
     uvec2 to_begin = begins ? range : range.xx;
     listMembers(lane, to_begin, first);
     sync();
@@ -224,6 +220,8 @@ void main() {
     sync();
     setSubstep(pace);
     rubs_in_push = solver_contacts[range.x].pace.z != 0u;
+    keeps_first = sweepsOn();
+    weighBodies(lane, sweepsOn() ? range : range.yy);
 #ifdef BOUNCE
     findImpacts(lane, range);
 #endif

@@ -44,8 +44,7 @@ void continueSaved(Trial& trial, World& from, World& to) {
 }
 
 // In units of the edge.
-std::vector<Double3> placesInEdges(Trial& trial, const std::string& name, double edge) {
-    MeasuredScene& run = trial.scene(name);
+std::vector<Double3> placesInEdges(Trial& trial, MeasuredScene& run, double edge) {
     std::vector<Double3> places;
     if (!trial.finish(run)) return places;
     for (size_t b = 0; b < run.scene().bodies.size(); ++b)
@@ -54,7 +53,7 @@ std::vector<Double3> placesInEdges(Trial& trial, const std::string& name, double
 }
 
 void checkAlike(Trial& trial, const std::string& name, double edge, const std::vector<Double3>& expected) {
-    const std::vector<Double3> places = placesInEdges(trial, name, edge);
+    const std::vector<Double3> places = placesInEdges(trial, trial.scene(name), edge);
     double most = 0;
     for (size_t b = 0; b < std::min(places.size(), expected.size()); ++b)
         most = std::max(most, brittle::length(places[b] - expected[b]) / expected[b][1]);
@@ -75,23 +74,14 @@ brittle::SceneDescription scaled(brittle::SceneDescription scene, double times) 
     return scene;
 }
 
-std::vector<Double3> placesAtScale(Trial& trial, const brittle::SceneDescription& scene, double times) {
-    MeasuredScene& run = trial.scene(scaled(scene, times));
-    std::vector<Double3> places;
-    if (!trial.finish(run)) return places;
-    for (size_t b = 0; b < scene.bodies.size(); ++b)
-        places.push_back((1 / times) * run.place(b));
-    return places;
-}
-
 void checkScales(Trial& trial, const char* name, brittle::SolverKind solver, uint32_t steps) {
     auto scene = brittle::makeBuiltinScene(name);
     if (!scene) return trial.fail(scene.error().message);
     scene->step.steps = steps;
     scene->step.solver = solver;
-    const std::vector<Double3> expected = placesAtScale(trial, *scene, 1);
+    const std::vector<Double3> expected = placesInEdges(trial, trial.scene(*scene), 1);
     for (const double times : {1e-3, 1e-2, 1e2}) {
-        const std::vector<Double3> places = placesAtScale(trial, *scene, times);
+        const std::vector<Double3> places = placesInEdges(trial, trial.scene(scaled(*scene, times)), times);
         double most = 0;
         for (size_t b = 0; b < std::min(places.size(), expected.size()); ++b)
             most = std::max(most, brittle::length(places[b] - expected[b]));
@@ -150,13 +140,13 @@ void movesAsTheReference(Trial& trial, const SceneCase& self) {
 }
 
 void weighsAlike(Trial& trial, const SceneCase&) {
-    const std::vector<Double3> expected = placesInEdges(trial, "hard_31_edge_1m", 1);
+    const std::vector<Double3> expected = placesInEdges(trial, trial.scene("hard_31_edge_1m"), 1);
     checkAlike(trial, "hard_31_density_10", 1, expected);
     checkAlike(trial, "hard_31_density_10000", 1, expected);
 }
 
 void scalesAlike(Trial& trial, const SceneCase&) {
-    const std::vector<Double3> expected = placesInEdges(trial, "hard_31_edge_1m", 1);
+    const std::vector<Double3> expected = placesInEdges(trial, trial.scene("hard_31_edge_1m"), 1);
     checkAlike(trial, "hard_31_edge_10mm", 0.01, expected);
     checkAlike(trial, "hard_31_edge_100mm", 0.1, expected);
     checkAlike(trial, "hard_31_edge_10m", 10, expected);

@@ -178,7 +178,7 @@ void RigidStack::substep() {
     for (RigidBody& body : bodies_)
         body.moveFor(solve_.seconds);
     solveAll(false);
-    // What touches for the first time settles at once.
+    // In the first substep of all, friction needs more sweeps.
     for (int sweep = 0; sweep < 8 && !has_settled_; ++sweep)
         solveAll(false);
     has_settled_ = true;

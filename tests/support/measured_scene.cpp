@@ -39,6 +39,11 @@ double bulgeOf(const gpu::HullRecord& hull, double angle) {
 
 } // namespace
 
+double marginOf(const brittle::StepDescription& step) {
+    const double sixtieths = 60 * step.dt;
+    return step.margin > 0 ? step.margin : 0.02 * sixtieths * sixtieths;
+}
+
 engine::Result<void> MeasuredScene::make(engine::Device& device) {
     std::unique_ptr<brittle::Fracture> fracture;
     if (hasCells(scene_)) {
@@ -141,8 +146,7 @@ bool MeasuredScene::isFinite() const {
 
 std::vector<reference::SolidBox> MeasuredScene::sweptBoxes(double more) const {
     std::vector<reference::SolidBox> boxes;
-    const double sixtieths = 60 * scene_.step.dt, usual = 0.02 * sixtieths * sixtieths;
-    const double margin = 0.5 * (scene_.step.margin > 0 ? scene_.step.margin : usual) + more;
+    const double margin = 0.5 * marginOf(scene_.step) + more;
     for (size_t p = 0; p < contents_.pieces.size(); ++p) {
         const uint32_t body = contents_.pieces[p].ids.y;
         const gpu::BodyState& state = last_[body];

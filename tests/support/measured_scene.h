@@ -11,6 +11,9 @@
 
 namespace support {
 
+// m. How far apart points may be to count as contacts: 2 cm at 60 steps a second if the scene does not say.
+double marginOf(const brittle::StepDescription& step);
+
 class MeasuredScene {
 public:
     explicit MeasuredScene(brittle::SceneDescription scene) : scene_(std::move(scene)) {}

@@ -53,8 +53,7 @@ engine::Result<std::vector<StackedBox>> stackedBoxes(const brittle::SceneDescrip
 
 reference::StackSettings stackSettings(const brittle::SceneDescription& scene) {
     const brittle::StepDescription& step = scene.step;
-    const double margin = step.margin > 0 ? step.margin : 0.02 * (60 * step.dt) * (60 * step.dt);
-    return {scene.gravity, step.dt, step.substeps, step.contact_hertz, step.contact_damping, step.push_out, margin};
+    return {scene.gravity, step.dt, step.substeps, step.contact_hertz, step.contact_damping, step.push_out, marginOf(step)};
 }
 
 StackDifference differenceOf(const MeasuredScene& run, const reference::RigidStack& stack) {

@@ -100,8 +100,7 @@ constexpr SceneKey kStepKeys[] = {
      "what meets more slowly does not bounce; acts where `effects` has restitution"},
     {"margin", at<&StepDescription::margin>, from(0, 1), "m",
      "contacts are looked for at this distance already, and at a tenth of the smaller piece's radius at most; 0: 2 cm at 60 "
-     "steps a "
-     "second, less for shorter steps, by the square of the step"},
+     "steps a second, less for shorter steps, by the square of the step"},
     {"recycling", at<&StepDescription::recycling>, kAnything, "", "contacts at rest keep their anchors from step to step"},
     {"axes", at<&StepDescription::axes>, oneOf(kAxes), "",
      "separating axes: all of two hulls, or a fixed set, which is looser and cheaper"},
