@@ -20,6 +20,7 @@ vec2 reference_at[FACE_CORNERS];
 vec3 incident_at[FACE_CORNERS]; // z: above the reference face
 vec4 candidate_at[CANDIDATES];  // w: name, as bits
 uint reference_count, incident_count, candidate_count;
+uint own_count; // candidates of the incident face; what follows lies on faces that are level with it
 float slack; // by which a point may lie beside the reference face
 vec3 closing; // how far the faces come closer where they turn: how it grows along u and v, and where both are 0
 

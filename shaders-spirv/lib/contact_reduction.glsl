@@ -1,5 +1,6 @@
 // Four of many candidates that hold as well as all: the deepest, the one furthest from it, the one furthest from the line of the
-// two, and the one furthest outside the triangle of the three. Equal ones by their place in the list.
+// two, and the one furthest outside the triangle of the three. Equal ones by their place in the list. If the face that the body lies
+// on is a triangle, its corners are the first three.
 #ifndef CONTACT_REDUCTION_GLSL
 #define CONTACT_REDUCTION_GLSL
 
@@ -66,8 +67,9 @@ uvec4 chosen() {
         uvec4 all = uvec4(0u, 1u, 2u, 3u);
         return mix(all, uvec4(NO_INDEX), greaterThanEqual(all, uvec4(candidate_count)));
     }
-    uint a = deepestOf(), b = furthestFrom(a);
-    uint c = furthestBeside(a, b), d = furthestOutside(a, b, c);
+    bool is_triangle = own_count == 3u;
+    uint a = is_triangle ? 0u : deepestOf(), b = is_triangle ? 1u : furthestFrom(a);
+    uint c = is_triangle ? 2u : furthestBeside(a, b), d = furthestOutside(a, b, c);
     uvec4 picked = uvec4(NO_INDEX);
     uint count = 0u;
     for (uint k = 0u; k < candidate_count; k++) {

@@ -173,6 +173,30 @@ TEST(SmallManifold, OfARoundFaceKeepsTheDeepestAndSpreadsTheRest) {
     EXPECT_GT(high[1] - low[1], 1.8);
 }
 
+// Below it has two triangles, which meet in its x axis and lean by 0.03 rad each. It is 4 times `size` wide.
+Shape ridgedChip(float size) {
+    const float low = -0.06f * size, edge = 2 * size;
+    return {{{-edge, 0, low}, {edge, 0, low}, {0, edge, 0}, {0, -edge, 0}, {0, 0, size}},
+            {{0, 1, 3}, {1, 0, 2}, {1, 2, 4}, {2, 0, 4}, {0, 3, 4}, {3, 1, 4}}};
+}
+
+// It touches the ground with its left triangle. m, m/s2.
+gpu::Manifold ofChip(float size, double gravity) {
+    HullScene scene;
+    const uint32_t ground = scene.add(boxShape({5, 5, 1})), chip = scene.add(ridgedChip(size));
+    const double lean = std::atan(0.03) + 1e-4;
+    const Turn turn = turnAbout({1, 0, 0}, -lean);
+    const double lowest = -0.06 * size * std::cos(lean);
+    scene.addPair({ground, {0, 0, -1}}, {chip, {0, 0, -lowest}, turn});
+    return manifoldsOf(scene, {.options = {.gravity = {0, 0, static_cast<float>(-gravity)}, .step = 1.0f / 60}})[0];
+}
+
+TEST(SmallManifold, OfAChipHoldsTheFaceThatItMayTipTo) {
+    EXPECT_EQ(ofChip(1e-3f, 9.81).info.x, 4u);
+    EXPECT_EQ(ofChip(1e-3f, 0).info.x, 3u);   // it does not tip
+    EXPECT_EQ(ofChip(0.1f, 9.81).info.x, 3u); // it does not tip so far within a step
+}
+
 TEST(SmallManifold, KeepsItsNamesUnderSmallMotion) {
     HullScene scene;
     const uint32_t ground = scene.add(boxShape({5, 5, 1})), box = scene.add(boxShape({.5, .5, .5}));

@@ -85,7 +85,10 @@ void expectMotion(const Pair& p) {
                  rim = vec(p.wanted().spin).norm() * diagonal;
     EXPECT_LE((vec(p.state().velocity) - vec(p.wanted().velocity)).norm(), std::max(1e-4, 1e-7 * rim));
     EXPECT_EQ(vec(p.state().spin), vec(p.wanted().spin));
-    EXPECT_LE((vec(p.state().momentum) - vec(p.wanted().momentum)).norm(), 2e-6 * vec(p.wanted().momentum).norm());
+    // Rounding is a share of the largest moment times the spin. A rod that spins about its length has far less momentum than
+    // that.
+    const double most = inertiaOf(p.wanted(), p.wantedShape()).norm() * vec(p.wanted().spin).norm();
+    EXPECT_LE((vec(p.state().momentum) - vec(p.wanted().momentum)).norm(), 1e-6 * most);
     EXPECT_NEAR(vec(p.state().turn).squaredNorm() + std::pow(double{p.state().turn.w}, 2), 1, 1e-6);
     EXPECT_EQ(p.state().velocity.w, 0);
     EXPECT_EQ(p.state().sector.w & BODY_ASLEEP, 0);
