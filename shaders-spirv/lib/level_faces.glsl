@@ -5,14 +5,14 @@
 // So the face below its center of mass takes the place of the one that touches, if the body can tip so far. If that face is a
 // triangle, the fourth point is a corner of another such face.
 //
-// This holds on what bodies lie on: what is fixed, or much larger.
+// This holds on what bodies lie on: what is fixed, or much larger. Large bodies hardly tip in a step, and the next one finds them.
 //
 // Wants lib/contact_candidates.glsl, `facing`, `push`, `faceOf`, `normalOf` and `shiftedCorner`.
 #ifndef LEVEL_FACES_GLSL
 #define LEVEL_FACES_GLSL
 
-const float kMostTilt = 0.45;   // rad
-const float kMuchLarger = 4.0;  // of radii
+const float kLeastTilt = 0.02, kMostTilt = 0.45; // rad
+const float kMuchLarger = 4.0;                   // of radii
 
 uint facesOf(bool of_a) { return of_a ? pair.hull[0].count.y : pair.hull[1].count.y; }
 

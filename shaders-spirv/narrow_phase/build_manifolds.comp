@@ -87,17 +87,17 @@ vec3 normalOf(bool of_a, uint face) {
 // Wants the plane set.
 void gatherCandidates() {
     slack = kSlackShare * pair.smaller;
-    bool on_ground = liesOnGround();
     float tilt = tiltInStep();
+    bool tips = tilt > kLeastTilt && liesOnGround();
     reference_count = loadReference(facing.a_leads, facing.reference_face);
-    if (on_ground) facing.incident_face = faceBelowCenter(tilt);
+    if (tips) facing.incident_face = faceBelowCenter(tilt);
     incident_count = loadIncident(!facing.a_leads, facing.incident_face);
     vec3 n = normalOf(!facing.a_leads, facing.incident_face);
     candidate_count = 0u;
     addIncidentEdges();
     addReferenceCorners(vec3(dot(plane.u, n), dot(plane.v, n), dot(plane.n, n)));
     own_count = candidate_count;
-    if (on_ground && own_count < 4u) addLevelFaces(tilt);
+    if (tips && own_count < 4u) addLevelFaces(tilt);
     bool grazes = (found.info.x & uint(AXIS_GRAZES)) != 0u; // what is beside the face does not touch it
     if (!grazes && (is_swept || found.axis.w <= 0.0)) addLowest(found.axis.w);
 }

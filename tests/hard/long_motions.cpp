@@ -36,6 +36,12 @@ double energyOf(const MeasuredScene& run, size_t body) {
     return run.place(body)[1] + (0.5 * squareOfSpeed(run, body) + turning / massOf(run, body)) / gravityOf(run);
 }
 
+double heightOf(const brittle::ShapeDescription& shape) {
+    if (shape.points.empty()) return shape.size[1];
+    const auto [lowest, highest] = std::ranges::minmax(shape.points, {}, [](const Double3& p) { return p[1]; });
+    return highest[1] - lowest[1];
+}
+
 } // namespace
 
 // Each comes by within half a turn.
@@ -51,7 +57,7 @@ void hitTheirPosts(Trial& trial, const SceneCase& self) {
 void keepsItsSpeed(Trial& trial, const SceneCase& self) {
     MeasuredScene& run = trial.scene(self.name);
     if (trial.failure()) return;
-    const double first = run.state(0).velocity.x, size = run.scene().bodies[0].shape.size[0], height = run.place(0)[1];
+    const double first = run.state(0).velocity.x, size = heightOf(run.scene().bodies[0].shape), height = run.place(0)[1];
     double lost = 0, off = 0;
     while (run.stepsLeft() > 0 && trial.step(run, 1)) {
         lost = std::max(lost, 1 - double{run.state(0).velocity.x} / first);

@@ -22,6 +22,7 @@ void slabHoldsAll(Trial& trial, const SceneCase& self);
 void allSleep(Trial& trial, const SceneCase& self);
 void hardlyCreeps(Trial& trial, const SceneCase& self);
 void towerStands(Trial& trial, const SceneCase& self); // cubes on each other, none asleep
-void heavyStands(Trial& trial, const SceneCase& self); // the second cube, on the first
+void heavyStands(Trial& trial, const SceneCase& self); // the second body, on the first
+void tinyBodiesRest(Trial& trial, const SceneCase& self);
 
 } // namespace hard

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <utility>
 
 namespace brittle::library {
 namespace {
@@ -12,20 +14,26 @@ namespace {
 constexpr SurfaceDescription kSmooth = {.friction = 0};
 constexpr SurfaceDescription kElastic = {.friction = 0, .restitution = 1};
 
-enum class Floor : uint8_t { Tiles, Steps, Cells };
+enum class Floor : uint8_t { Tiles, Steps, Cells, Triangles, Sheet, Plane };
 
 struct Slide {
     Floor floor;
     double speed; // m/s
     double tile;  // m, the edge of one; the cube that slides has 0.4 of it
     double seconds;
+    bool is_wedge = false; // what slides, in place of a cube
 };
 constexpr std::array<Slide, kSliders> kSlides = {{{Floor::Tiles, 0.1, 1, 4},
                                                   {Floor::Tiles, 5, 1, 2},
                                                   {Floor::Tiles, 50, 1, 2},
                                                   {Floor::Tiles, 0.5, 0.01, 1},
                                                   {Floor::Steps, 5, 1, 2},
-                                                  {Floor::Cells, 1, 1, 1.5}}};
+                                                  {Floor::Cells, 1, 1, 1.5},
+                                                  {Floor::Triangles, 5, 1, 2},
+                                                  {Floor::Sheet, 1, 1, 4},
+                                                  {Floor::Sheet, 5, 1, 2},
+                                                  {Floor::Plane, 5, 1, 2},
+                                                  {Floor::Tiles, 5, 1, 2, true}}};
 
 // Boxes side by side, their tops level, or off by a millionth of the cube that slides.
 void addTiles(SceneDescription& scene, const Slide& slide) {
@@ -40,6 +48,26 @@ void addTiles(SceneDescription& scene, const Slide& slide) {
     }
 }
 
+// A level rectangle of so many strips along x, each of two triangles.
+void addTriangles(SceneDescription& scene, const Slide& slide, uint32_t strips) {
+    const double first = -2 * slide.tile, length = slide.speed * slide.seconds + 4 * slide.tile;
+    auto model = std::make_shared<ImportedMesh>();
+    for (uint32_t k = 0; k <= strips; ++k)
+        for (const double z : {-slide.tile, slide.tile})
+            model->positions.push_back({first + length * k / strips, 0, z});
+    for (uint32_t k = 0; k < strips; ++k) {
+        const uint32_t corner = 2 * k;
+        model->triangles.push_back({corner, corner + 1, corner + 2});
+        model->triangles.push_back({corner + 1, corner + 3, corner + 2});
+    }
+    model->corner_normals.resize(3 * model->triangles.size());
+    model->corner_uvs.resize(3 * model->triangles.size());
+    ColliderDescription& floor = scene.colliders.emplace_back();
+    floor.shape.kind = ShapeKind::Mesh;
+    floor.shape.model = std::move(model);
+    floor.surface = kSmooth;
+}
+
 // A heavy block of 60 cells, four tiles long.
 void addBlockOfCells(SceneDescription& scene, const Slide& slide) {
     const double edge = slide.tile;
@@ -48,6 +76,26 @@ void addBlockOfCells(SceneDescription& scene, const Slide& slide) {
     block.shape.cells.sites = 60;
     block.mass = 1e6;
     block.surface = kSmooth;
+}
+
+void addFloor(SceneDescription& scene, const Slide& slide) {
+    switch (slide.floor) {
+    case Floor::Tiles:
+    case Floor::Steps: return addTiles(scene, slide);
+    case Floor::Cells: return addBlockOfCells(scene, slide);
+    case Floor::Triangles: return addTriangles(scene, slide, 28);
+    case Floor::Sheet: return addTriangles(scene, slide, 1);
+    case Floor::Plane: return addGround(scene, kSmooth);
+    }
+}
+
+// Its front is an edge on the floor.
+void addWedge(SceneDescription& scene, double edge, double x) {
+    std::vector<Double3> points;
+    for (const double z : {-edge / 2, edge / 2})
+        for (const Double3& corner : {Double3{-edge, 0, z}, Double3{edge, 0, z}, Double3{-edge, edge, z}})
+            points.push_back(corner);
+    addHull(scene, std::move(points), {x, 0, 0.1 * edge});
 }
 
 SceneDescription elasticScene(const std::string& comment, double stage, double seconds) {
@@ -81,19 +129,20 @@ SceneDescription spinningRods(uint32_t count) {
 
 SceneDescription slider(uint32_t number) {
     const Slide& slide = kSlides.at(std::min(number, kSliders - 1));
-    SceneDescription scene = newScene("A cube slides without friction over the seams of a floor.\n"
+    SceneDescription scene = newScene("A cube or a wedge slides without friction over the seams of a floor.\n"
                                       "Passes: it keeps its speed to 0.1 %, and its height to 1 % of its size.",
                                       8 * slide.tile);
     scene.gravity = {0, -9.81, 0};
     scene.step.steps = static_cast<uint32_t>(60 * slide.seconds);
     const double edge = 0.4 * slide.tile;
-    BodyDescription& cube = addBox(scene, {edge, edge, edge}, {-0.25 * slide.tile - edge / 2, edge / 2, 0.1 * edge});
-    cube.velocity = {slide.speed, 0, 0};
-    cube.surface = kSmooth;
-    if (slide.floor == Floor::Cells)
-        addBlockOfCells(scene, slide);
+    const double x = -0.25 * slide.tile - edge / 2;
+    if (slide.is_wedge)
+        addWedge(scene, edge, x);
     else
-        addTiles(scene, slide);
+        addBox(scene, {edge, edge, edge}, {x, edge / 2, 0.1 * edge});
+    scene.bodies[0].velocity = {slide.speed, 0, 0};
+    scene.bodies[0].surface = kSmooth;
+    addFloor(scene, slide);
     return scene;
 }
 
@@ -117,6 +166,18 @@ SceneDescription elasticTilted(uint32_t count) {
         cube.turn = dice.turn();
         cube.surface = kElastic;
     }
+    return scene;
+}
+
+SceneDescription elasticTumbling(uint32_t meters) {
+    SceneDescription scene = elasticScene("A cube with restitution 1 falls " + std::to_string(meters) +
+                                              " m onto a corner, and bounces for 20 s.\n"
+                                              "Passes: it has not gained 0.1 % of its energy or lost 2 %.",
+                                          meters, 20);
+    addGround(scene, kElastic);
+    BodyDescription& cube = addBox(scene, {1, 1, 1}, {0, 1.0 + meters, 0});
+    cube.turn = turnAbout({0.8, 0, 0.6}, 0.5);
+    cube.surface = kElastic;
     return scene;
 }
 
@@ -155,6 +216,16 @@ SceneDescription arch(uint32_t stones) {
         stone.surface.friction = 0.8;
         stone.density = 2200;
     }
+    return scene;
+}
+
+SceneDescription longArch(uint32_t stones) {
+    SceneDescription scene = arch(stones);
+    scene.comment =
+        "A round arch of " + std::to_string(stones) +
+        " stones stands by friction for a minute.\nPasses: no stone has moved by more than 25 mm, and none is faster "
+        "than 1 mm/s.";
+    scene.step.steps = 3600;
     return scene;
 }
 

@@ -23,7 +23,19 @@ constexpr std::array<Tall, kTallStacks> kTall = {{{8, 1, 9.81, 60},
                                                   {6, 0.05, 98.1, 10},
                                                   {40, 1, 9.81, 60},
                                                   {40, 0.002, 9.81, 10},
-                                                  {20, 10, 98.1, 60}}};
+                                                  {20, 10, 98.1, 60},
+                                                  {4, 0.05, 98.1, 60}}};
+
+// Upright, with so many sides.
+std::vector<Double3> cylinder(double radius, double height, uint32_t sides) {
+    std::vector<Double3> points;
+    for (uint32_t k = 0; k < sides; ++k) {
+        const double angle = 2 * std::numbers::pi * k / sides;
+        for (const double y : {-height / 2, height / 2})
+            points.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
+    }
+    return points;
+}
 
 SceneDescription heavyAndLight(double gap, uint32_t ratio, const std::string& how) {
     SceneDescription scene = newScene(
@@ -65,5 +77,37 @@ SceneDescription heavyDroppedHard(uint32_t ratio) {
 }
 
 SceneDescription heavyPlaced(uint32_t ratio) { return heavyAndLight(0, ratio, "lies on"); }
+
+SceneDescription heavyCylinderDropped(uint32_t ratio) {
+    SceneDescription scene = heavyDropped(ratio);
+    scene.comment =
+        "A cylinder of " + std::to_string(ratio) +
+        " kg falls by 0.1 m onto a cube of 1 kg.\nPasses: after 10 s it is within 1 % of an edge of its place, upright "
+        "and at rest.";
+    BodyDescription& heavy = scene.bodies.back();
+    heavy.shape.kind = ShapeKind::Hull;
+    heavy.shape.points = cylinder(0.5, 1, 24);
+    return scene;
+}
+
+SceneDescription tinyBodies(uint32_t) {
+    SceneDescription scene =
+        newScene("Cubes of 1, 2 and 3 mm, a ball of 2 mm and a cylinder of 15 mm fall by 2 cm.\n"
+                 "Passes: after 60 s none lies deeper than a twentieth of its size, or moves faster than 1 mm/s. "
+                 "The cylinder has not moved aside by 1 mm.",
+                 0.3);
+    scene.gravity = {0, -9.81, 0};
+    scene.step.steps = 3600;
+    addGround(scene);
+    for (int k = 1; k <= 3; ++k) {
+        const double edge = 1e-3 * k;
+        addBox(scene, {edge, edge, edge}, {0.02 * k, 0.02, 0});
+    }
+    BodyDescription& ball = addBox(scene, {1, 1, 1}, {0.08, 0.02, 0});
+    ball.shape.kind = ShapeKind::Ball;
+    ball.shape.radius = 1e-3;
+    addHull(scene, cylinder(7.5e-3, 0.01, 24), {-0.05, 0.02, 0});
+    return scene;
+}
 
 } // namespace brittle::library

@@ -5,11 +5,13 @@
 
 namespace brittle::library {
 
-constexpr uint32_t kTallStacks = 9;
+constexpr uint32_t kTallStacks = 10;
 
-SceneDescription tallStack(uint32_t number);   // 34; below kTallStacks: a row of sizes, heights and gravities
-SceneDescription heavyDropped(uint32_t ratio);     // 35; kg, on 1 kg
-SceneDescription heavyDroppedHard(uint32_t ratio); // 35; by the hard solver
-SceneDescription heavyPlaced(uint32_t ratio);      // 35
+SceneDescription tallStack(uint32_t number);           // 34; below kTallStacks: a row of sizes, heights and gravities
+SceneDescription heavyDropped(uint32_t ratio);         // 35; kg, on 1 kg
+SceneDescription heavyDroppedHard(uint32_t ratio);     // 35; by the hard solver
+SceneDescription heavyPlaced(uint32_t ratio);          // 35
+SceneDescription heavyCylinderDropped(uint32_t ratio); // 35
+SceneDescription tinyBodies(uint32_t unused);          // 43
 
 } // namespace brittle::library
