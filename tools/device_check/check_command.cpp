@@ -159,6 +159,11 @@ int runCheck(const Options& options) {
     const std::filesystem::path folder = options.output.empty() ? kitFolder(options) : std::filesystem::path(options.output);
     const auto scratch = scratchIn(folder);
     if (!scratch) return fail(scratch.error());
+    whenInterrupted([path = *scratch] {
+        device_check::endChildren();
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    });
     Results results(folder, {{kitFolder(options).string(), "KIT"}, {scratch->string(), "SCRATCH"}});
     results.json() = {{"format", 1}, {"brittle", aboutProgram()}, {"parts", Json::object()}};
     const int code = Check(options, *scratch).run(results);

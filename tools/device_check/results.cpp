@@ -1,6 +1,6 @@
 #include "tools/device_check/results.h"
 
-#include "modules/brittle/export/output_file.h"
+#include "tools/brittle/interrupt.h"
 
 #include <cstdio>
 
@@ -8,7 +8,7 @@ namespace device_check {
 namespace {
 
 bool writeFile(const std::filesystem::path& path, const std::string& text, bool& told) {
-    auto file = brittle::OutputFile::create(path);
+    auto file = cli::createOutput(path);
     engine::Result<void> done = file ? file->write(text) : engine::Result<void>(file.error());
     if (done) done = file->commit();
     if (done) return true;
