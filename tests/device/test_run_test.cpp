@@ -114,10 +114,10 @@ protected:
             std::thread([] {
                 std::this_thread::sleep_for(std::chrono::seconds(3));
                 device_check::endChildren();
+                _exit(0);
             }).detach();
             device_check::runChild({{"/bin/sh", "-c", script}, {}, Clock::now() + std::chrono::seconds(60)},
                                    [](std::string_view) {});
-            _exit(0);
         }
         while (!std::filesystem::exists(file))
             std::this_thread::sleep_for(std::chrono::milliseconds(5));

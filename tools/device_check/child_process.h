@@ -44,7 +44,8 @@ using LineHandler = std::function<void(std::string_view line)>;
 // threads at a time.
 ChildEnd runChild(const ChildCommand& command, const LineHandler& line);
 
-// Ends all programs that runChild runs now, with their children, and starts no more. Call it once, before this process ends.
+// Ends all programs that runChild runs now, with their children, and starts no more. Call it once, before this process ends:
+// runChild does not return any more.
 void endChildren();
 
 // The path of this program. Empty if the system does not tell.
