@@ -145,7 +145,7 @@ bool TestRun::isGood() const {
 
 void runTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
     if (!kit.hasProgram(options.program)) {
-        run.problem = options.program + " is missing";
+        run.problem = "the tests of " + options.program + " cannot be listed: the program is missing";
         return;
     }
     if (run.tests.empty()) listTests(kit, options, run);
