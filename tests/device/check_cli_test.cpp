@@ -99,5 +99,24 @@ TEST_F(CheckCli, NamesTheTestsThatWereNotReached) {
     EXPECT_NE(run.out.find("These parts were not checked, or not wholly: kernels"), std::string::npos) << run.out;
 }
 
+// A copy of a driver is a second device of the same name.
+TEST_F(CheckCli, TellsTwoDevicesOfOneNameApart) {
+    const fs::path manifest = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", driver = path("libvulkan_lvp2.so");
+    const Json known = Json::parse(support::fileBytes(manifest.string()), nullptr, /*allow_exceptions=*/false);
+    if (!known.is_object()) GTEST_SKIP() << "Mesa's lavapipe is not installed";
+    Json second = known;
+    fs::copy_file(known["ICD"]["library_path"].get<std::string>(), driver);
+    second["ICD"]["library_path"] = driver.string();
+    std::ofstream(path("second.json")) << second;
+    const std::string both = manifest.string() + ":" + path("second.json");
+    const Outcome run = support::runProgram("brittle", {"devices", "--device", "1", "--json"},
+                                            {"VK_DRIVER_FILES=" + both, "VK_ICD_FILENAMES=" + both});
+    const Json devices = Json::parse(run.out, nullptr, /*allow_exceptions=*/false);
+    ASSERT_EQ(devices.size(), 2u) << run.out << run.err;
+    EXPECT_EQ(devices[0]["name"], devices[1]["name"]);
+    EXPECT_EQ(devices[0]["chosen"], false);
+    EXPECT_EQ(devices[1]["chosen"], true);
+}
+
 } // namespace
 } // namespace device_test

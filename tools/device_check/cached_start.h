@@ -11,7 +11,7 @@ namespace device_check {
 // none if the folder is missing; NVIDIA's driver keeps none for root without its variable.
 std::vector<std::string> cacheSettings(const std::filesystem::path& cache);
 
-// As runChild, which see. The driver keeps its cache in `cache` alone, a folder that exists: Mesa's and NVIDIA's drivers do.
+// Runs a program as runChild does. The driver keeps its cache in `cache` alone, a folder that exists: Mesa's and NVIDIA's drivers do.
 ChildEnd runWithCache(ChildCommand command, const std::filesystem::path& cache);
 
 } // namespace device_check

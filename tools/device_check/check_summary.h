@@ -1,4 +1,4 @@
-// What a check tells at its end.
+// Sums up the parts of a check at its end.
 #pragma once
 
 #include "tools/device_check/kit.h"

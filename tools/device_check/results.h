@@ -42,7 +42,7 @@ private:
     bool told_json_ = false, told_page_ = false;
 };
 
-// As text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character, are
+// Returns JSON text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character, are
 // replaced.
 std::string textOf(const Json& json, int indent = -1);
 
