@@ -56,7 +56,7 @@ Json outcomeOf(const Work& work, size_t findings, const std::string& what, const
     const bool late = work.end.kind == ChildEnd::Kind::OutOfTime, whole = work.lines.size() == work.of;
     Json outcome = {{"status", findings > 0 ? "failed" : work.end.isGood() && whole ? "passed" : late ? "stopped" : "failed"}};
     std::string reason;
-    if (findings > 0) reason = std::to_string(findings) + " " + what;
+    if (findings > 0) reason = what;
     if (!whole) reason += (reason.empty() ? "" : "; ") + countOf(work, things) + " were done" + (late ? " in the time" : "");
     if (!work.end.isGood() && !late) reason += (reason.empty() ? "" : "; ") + work.end.reason;
     if (outcome["status"] == "stopped" && reason.empty()) reason = work.end.reason;
@@ -69,14 +69,14 @@ Json outcomeOf(const Work& work, size_t findings, const std::string& what, const
 
 // Models that the known device refuses are refused here with the same words.
 bool modelFails(Json& line, const Json& known) {
-    if (line.contains("error")) return known.value("error", "") != line["error"];
+    if (line.contains("error")) return known.is_null() || known.value("error", "") != line["error"];
     for (const char* key : {"topology", "positions", "attributes", "masses"})
         line[std::string(key) + "_is"] = comparison(line, known, key);
     return line["topology_is"] != "equal" || line["positions_is"] != "equal" || !line.value("violation", "").empty();
 }
 
 bool sceneFails(Json& line, const Json& known) {
-    if (line.contains("error")) return known.value("error", "") != line["error"];
+    if (line.contains("error")) return known.is_null() || known.value("error", "") != line["error"];
     line["same_bits_twice"] = line["hashes"][0] == line["hashes"][1];
     line["hash_is"] = comparison(line, known, "hashes");
     line["fragments_is"] = comparison(line, known, "fragments");
@@ -91,15 +91,38 @@ struct Compared {
     std::initializer_list<const char*> keys;
 };
 
+// Counts lines that differ and lines with an error, and describes them.
+class Findings {
+public:
+    void add(const Json& line, const Compared& compared) {
+        ++(line.contains("error") ? errors_ : differing_);
+        if (errors_ == 1 && first_error_.empty())
+            first_error_ = line.value(*compared.keys.begin(), "?") + ": " + line["error"].get<std::string>();
+    }
+    size_t count() const { return differing_ + errors_; }
+    std::string text(const Compared& compared) const {
+        std::string text;
+        if (differing_ > 0) text = std::to_string(differing_) + " " + compared.differ;
+        if (errors_ > 0)
+            text += (text.empty() ? "" : "; ") + std::to_string(errors_) + " " + compared.things +
+                    " ended with an error, first " + first_error_;
+        return text;
+    }
+
+private:
+    size_t differing_ = 0, errors_ = 0;
+    std::string first_error_;
+};
+
 // Without expected results nothing can be compared: the part fails, and says so.
 template <class Fails>
 Json compare(const PartContext& context, const Compared& compared, Fails&& fails) {
     Work work = runWork(context, compared.list);
-    size_t findings = 0;
+    Findings findings;
     if (context.expected.is_object())
         for (Json& line : work.lines)
-            findings += fails(line, expectedFor(context.expected, compared.list, line, compared.keys)) ? 1 : 0;
-    Json outcome = outcomeOf(work, findings, compared.differ, compared.things);
+            if (fails(line, expectedFor(context.expected, compared.list, line, compared.keys))) findings.add(line, compared);
+    Json outcome = outcomeOf(work, findings.count(), findings.text(compared), compared.things);
     if (work.of == 0 && work.end.isGood())
         outcome = {{"status", "failed"}, {"reason", std::string(compared.source) + " is missing"}};
     if (!context.expected.is_object()) {
