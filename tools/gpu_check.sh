@@ -1,27 +1,52 @@
 #!/usr/bin/env bash
 # tools/gpu_check.sh [-o DIR] [--no-build] [--small]: packs a folder that checks Brittle on any x86-64 Linux machine with a Vulkan driver.
-# The machine needs nothing else: no packages, no compiler, no network, no root. DIR is out/gpu-check if not given.
+# The machine needs nothing else: no packages, no compiler, no network, no root. DIR is out/gpu-check of this tree if not given.
 #
 # DIR/run.sh unpacks programs.tar.xz beside itself and runs `brittle check-device`. See modules/brittle/docs/checking_a_gpu.md.
 # --small packs a part of the models and scenes, and no validation layer: for the test of the folder itself.
 # The expected fragments and scene states come from this machine's device, which should be Mesa's lavapipe.
+# DIR must be new, empty, or an earlier folder of this script with nothing else in it. Results of earlier checks stay there.
 set -euo pipefail
+called_in=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-usage() {
-  echo "usage: tools/gpu_check.sh [-o DIR] [--no-build] [--small]" >&2
+usage() { echo "usage: tools/gpu_check.sh [-o DIR] [--no-build] [--small]"; }
+say() { echo "gpu_check: $*" >&2; }
+refuse() {
+  say "$*"
+  exit 2
+}
+misused() {
+  usage >&2
   exit 2
 }
 
 out=out/gpu-check build=true small=false
 while [ $# -gt 0 ]; do
   case $1 in
-    -o) [ $# -ge 2 ] || usage; out=$2; shift 2 ;;
+    -h | --help) usage; exit 0 ;;
+    -o) [ $# -ge 2 ] && [ -n "$2" ] || misused; out=$2; shift 2 ;;
     --no-build) build=false; shift ;;
     --small) small=true; shift ;;
-    *) usage ;;
+    *) misused ;;
   esac
 done
+case $out in /* | out/gpu-check) ;; *) out=$called_in/$out ;; esac
+
+# Refuses a folder that holds anything but an earlier kit and the results of its runs: packing replaces files there.
+check_folder() {
+  [ -e "$out" ] || [ -L "$out" ] || return 0
+  [ -d "$out" ] || refuse "$out is no folder; give another one with -o"
+  local path
+  while IFS= read -r path; do
+    [ -f "$out/programs.tar.xz" ] || refuse "$out holds files and is no kit; give a new or an empty folder with -o"
+    case ${path##*/} in
+      busybox | programs.tar.xz | run.sh | README.txt | results.json* | results.html* | unpacked-* | compiled* | scratch-*) ;;
+      *) refuse "$out holds $path, which no kit has; move it away, or give another folder with -o" ;;
+    esac
+  done < <(find "$out/" -mindepth 1 -maxdepth 1 -printf '%f\n')
+}
+check_folder
 
 bin=build/release/bin
 tests=(brittle_tests_engine brittle_tests_kernel brittle_tests_module brittle_tests_abi)
@@ -36,8 +61,6 @@ done
 kit=$(mktemp -d)
 trap 'rm -rf "$kit"' EXIT
 mkdir -p "$kit"/{bin,lib,cxx,system,vulkan,meshes,modules,source}
-
-say() { echo "gpu_check: $*" >&2; }
 
 # The shared libraries that these programs load, one path per line.
 libraries_of() {
@@ -87,6 +110,12 @@ pack_layer() {
   sed 's|"library_path": *"[^"]*"|"library_path": "./libVkLayer_khronos_validation.so"|' "$manifest" >"$kit/layer/VkLayer_khronos_validation.json"
 }
 
+# A check fails if it misses a mesh of the list, so the list names only those that are packed.
+skip_mesh() {
+  say "skipped $2: the folder of meshes is not here"
+  sed -i "/^$1 /d" "$kit/meshes.txt"
+}
+
 # Copies the files that tests and scenes read, laid out as in the source tree.
 pack_sources() {
   say "scenes and meshes"
@@ -105,8 +134,8 @@ pack_sources() {
   while read -r name source; do
     case $name in '' | '#'*) continue ;; esac
     case $source in builtin:*) continue ;; esac
-    if [ -f "../shared/meshes/$source" ]; then cp "../shared/meshes/$source" "$kit/meshes/"; else say "skipped $source: the folder of meshes is not here"; fi
-  done <"$kit/meshes.txt"
+    if [ -f "../shared/meshes/$source" ]; then cp "../shared/meshes/$source" "$kit/meshes/"; else skip_mesh "$name" "$source"; fi
+  done < <(cat "$kit/meshes.txt")
 }
 
 write_expected() {
@@ -122,9 +151,11 @@ write_expected() {
 write_folder() {
   say "packing"
   "$kit"/system/ld-linux-x86-64.so.2 --version | sed -n '1s/.* \([0-9.]*[0-9]\)\.*$/\1/p' >"$kit/system/version"
-  rm -rf "$out"
+  check_folder
   mkdir -p "$out"
-  mv "$kit/busybox" "$out/busybox"
+  rm -rf "$out"/unpacked-* # of the programs that are replaced now
+  install -m 755 "$kit/busybox" "$out/busybox"
+  rm "$kit/busybox"
   git describe --always --dirty >"$kit/commit" 2>/dev/null || echo unknown >"$kit/commit"
   tar -C "$kit" --owner=0 --group=0 --sort=name -cf - . | xz "-$($small && echo 1 || echo 6)" -T2 >"$out/programs.tar.xz"
   install -m 755 tools/device_check/run.sh "$out/run.sh"

@@ -1,4 +1,5 @@
 // brittle compare as its users meet it.
+#include "modules/brittle/mesh/byte_hash.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
+#include <string_view>
 
 namespace {
 
@@ -37,16 +40,35 @@ protected:
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return json::parse(run.out, nullptr, false);
     }
+    // Changes the content of a recording, and its checksum.
+    static void change(const std::string& file, const std::function<void(json&)>& how) {
+        const std::string bytes = support::fileBytes(file);
+        json outer = json::from_cbor(bytes), content = json::from_cbor(outer["content"].get_binary());
+        how(content);
+        std::vector<uint8_t> changed = json::to_cbor(content);
+        brittle::ByteHash hash;
+        hash.add(std::as_bytes(std::span(changed)));
+        outer["hash"] = hash.value();
+        outer["content"] = json::binary(std::move(changed));
+        const std::vector<uint8_t> written = json::to_cbor(outer);
+        write(file, {reinterpret_cast<const char*>(written.data()), written.size()});
+    }
+    static void write(const std::string& file, std::string_view bytes) {
+        std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    }
     // Takes a bit of a body's velocity after a step, as another driver might.
     static void spoil(const std::string& file, size_t step) {
-        std::ifstream in(file, std::ios::binary);
-        const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-        json recording = json::from_cbor(bytes);
-        for (size_t k = step - 1; k < recording["steps"].size(); ++k)
-            recording["steps"][k].get_binary().at(3 * 16) ^= 1; // the lowest bit of velocity.x of the first body
-        const std::vector<uint8_t> spoiled = json::to_cbor(recording);
-        std::ofstream(file, std::ios::binary)
-            .write(reinterpret_cast<const char*>(spoiled.data()), static_cast<std::streamsize>(spoiled.size()));
+        change(file, [step](json& recording) {
+            for (size_t k = step - 1; k < recording["steps"].size(); ++k)
+                recording["steps"][k].get_binary().at(3 * 16) ^= 1; // the lowest bit of velocity.x of the first body
+        });
+    }
+    std::string recorded(const std::vector<std::string>& options = {}) const {
+        std::vector<std::string> arguments = {"--device", "0", fallingBox(), "--steps", "3", "--record", path("box.motion")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome run = compare(arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return path("box.motion");
     }
 };
 
@@ -126,6 +148,42 @@ TEST_F(CompareCli, RefusesTheRecordingOfAnotherScene) {
     ASSERT_EQ(compare({"--device", "0", fallingBox(), "--steps", "3", "--record", file}).exit_code, 0);
     expectRefused({"--device", "0", "stack_10", "--against", file}, 2, "is a recording of the scene \"box\"");
     expectRefused({"--device", "0", fallingBox(), "--against", file, "--steps", "4"}, 2, "the recording has 3 steps");
+}
+
+TEST_F(CompareCli, RefusesADamagedRecording) {
+    const std::string file = recorded({"--passes-of", "2"}), whole = support::fileBytes(file);
+    const auto expectDamaged = [&](const std::string& bytes, const std::string& words) {
+        write(file, bytes);
+        expectRefused({"--device", "0", fallingBox(), "--against", file}, 2, words);
+    };
+    expectDamaged(whole.substr(0, whole.size() / 2), "damaged recording");
+    std::string flipped = whole;
+    flipped[whole.size() / 2] ^= 1;
+    expectDamaged(flipped, "its checksum is wrong");
+    expectRefused({"--device", "0", fallingBox(), "--against", path("")}, 2, "is a folder");
+    for (const char* list : {"steps", "passes"}) {
+        write(file, whole);
+        change(file, [list](json& recording) {
+            (recording[list].is_array() ? recording[list] : recording[list]["passes"]) = json::array();
+        });
+        expectRefused({"--device", "0", fallingBox(), "--against", file}, 2, "cannot be compared with");
+    }
+    write(file, whole);
+    change(file, [](json& recording) { recording["passes"]["step"] = -7; });
+    expectRefused({"--device", "0", fallingBox(), "--against", file}, 2, "it has passes of step");
+}
+
+TEST_F(CompareCli, RefusesTheRecordingOfAChangedSceneOrGroupSize) {
+    const std::string file = recorded();
+    expectRefused({"--device", "0", fallingBox(), "--against", file, "--group-size", "128"}, 2, "workgroups of 64 lanes");
+    expectRefused({"--device", "0", fallingBox(1.25), "--against", file}, 2, "another scene with the name \"box\"");
+    EXPECT_EQ(compare({"--device", "0", fallingBox(), "--against", file, "--group-size", "64"}).exit_code, 0);
+}
+
+TEST_F(CompareCli, RefusesOptionsThatWouldDoNothing) {
+    for (const char* flag : {"--whole", "--json", "--fail-on-difference"})
+        expectRefused({"--device", "0", fallingBox(), "--record", path("box.motion"), flag}, 2, "excludes");
+    expectRefused({"--device", "0", "--device", "0", fallingBox(), "--seconds", "0"}, 2, "must be above 0");
 }
 
 } // namespace

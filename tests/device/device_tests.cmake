@@ -37,6 +37,8 @@ foreach(lanes 4 16)
         --gtest_filter=SubgroupSize*)
 endforeach()
 
+device_test(device_kit_scripts ${CMAKE_CURRENT_SOURCE_DIR}/device/kit_scripts.sh ${CMAKE_BINARY_DIR}/kit-scripts)
+
 device_test(planted_constants ${CMAKE_CURRENT_SOURCE_DIR}/device/planted_constants.sh ${CMAKE_BINARY_DIR} ${GLSLANG} ${SPIRV_OPT})
 
 # Missing barriers are noticed: the tests of barriers that need the layer skip in the program's other run.

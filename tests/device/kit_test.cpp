@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <sys/wait.h>
 
 namespace device_test {
@@ -86,7 +87,7 @@ TEST_F(Kit, IsSmallAndHasAGuide) {
 }
 
 TEST_F(Kit, GivesInAnEmptyRootWhatThisMachineGives) {
-    const int code = run("-o /kit --parts models scenes motion");
+    const int code = run("-o /kit --parts models scenes motion --limit-scale 8");
     EXPECT_EQ(code, 0) << said();
     const Json parts = results()["parts"];
     EXPECT_NE(parts["device"]["facts"]["name"].get<std::string>().find("llvmpipe"), std::string::npos);
@@ -95,18 +96,37 @@ TEST_F(Kit, GivesInAnEmptyRootWhatThisMachineGives) {
     for (const Json& scene : parts["motion"]["scenes"])
         EXPECT_TRUE(scene["agree"].get<bool>()) << scene["scene"];
     EXPECT_GT(support::fileBytes((folder() / "root/kit/results.html").string()).size(), 10'000u);
+    EXPECT_EQ(results()["compiled_kernels"], "empty at the beginning");
+    EXPECT_FALSE(fs::is_empty(folder() / "root/kit/compiled"));
 }
 
 // A second run finds what the first one unpacked, and its time limit: tests that did not run are counted, and no test fails.
 TEST_F(Kit, RunsAgainAndStopsAtItsTimeLimit) {
-    const int code = run("-o /kit --parts kernels --limit-scale 0.05");
+    const int code = run("-o /kit --parts kernels --limit-scale 0.2");
     EXPECT_EQ(code, 0) << said();
     const Json part = results()["parts"]["kernels"];
     const Json tests = part["programs"]["kernel"];
     EXPECT_GT(tests["passed"].get<int>(), 0);
     EXPECT_EQ(tests["passed"].get<int>() + tests["not run"].get<int>() + tests["skipped"].get<int>(),
               tests["tests"].get<int>());
-    EXPECT_LT(part["seconds"].get<double>(), 0.05 * 350 + 5);
+    EXPECT_LT(part["seconds"].get<double>(), 0.2 * 350 + 5);
+    EXPECT_EQ(results()["compiled_kernels"], "filled by an earlier check");
+    EXPECT_TRUE(results(folder() / "root/kit/results.json.1")["parts"].contains("models")) << said();
+    EXPECT_NE(said().find("These parts were not checked, or not wholly: kernels"), std::string::npos) << said();
+}
+
+// The next run unpacks again.
+TEST_F(Kit, FailsIfNothingCanBeCompared) {
+    run("--help");
+    for (const auto& entry : fs::directory_iterator(folder() / "root/kit"))
+        if (entry.path().filename().string().starts_with("unpacked-")) {
+            fs::remove(entry.path() / "complete");
+            fs::resize_file(entry.path() / "expected.json", 100);
+            std::ofstream(entry.path() / "complete") << "complete\n";
+            EXPECT_EQ(run("-o /kit/damaged --parts models motion"), 1) << said();
+            EXPECT_NE(said().find("expected.json is damaged"), std::string::npos) << said();
+            fs::remove(entry.path() / "complete");
+        }
 }
 
 TEST_F(Kit, GoesOnWithoutAReaderAndKeepsItsResults) {

@@ -2,7 +2,11 @@
 #include "tests/support/folder_test.h"
 #include "tools/device_check/test_run.h"
 
+#include <csignal>
 #include <fstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
 namespace device_test {
 namespace {
@@ -98,6 +102,49 @@ TEST(ChildProcess, IsEndedAtItsTimeLimitWithItsChildren) {
     EXPECT_EQ(end.kind, ChildEnd::Kind::OutOfTime);
     EXPECT_EQ(lines, std::vector<std::string>{"begun"});
     EXPECT_LT(Clock::now() - start, std::chrono::seconds(15));
+}
+
+class Followers : public support::FolderTest {
+protected:
+    // A process that runs a program, as `check` does. Returns once the program runs, with the ids of both.
+    std::pair<pid_t, pid_t> start() const {
+        const std::string file = path("id"), script = "echo $$ >" + file + ".new; mv " + file + ".new " + file + "; sleep 60";
+        const pid_t parent = fork();
+        if (parent == 0) {
+            std::thread([] {
+                std::this_thread::sleep_for(std::chrono::seconds(3));
+                device_check::endChildren();
+                _exit(0);
+            }).detach();
+            device_check::runChild({{"/bin/sh", "-c", script}, {}, Clock::now() + std::chrono::seconds(60)},
+                                   [](std::string_view) {});
+        }
+        while (!std::filesystem::exists(file))
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        pid_t program = -1;
+        std::ifstream(file) >> program;
+        return {parent, program};
+    }
+    static bool endsSoon(pid_t pid) {
+        for (int k = 0; k < 200 && kill(pid, 0) == 0; ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return kill(pid, 0) != 0;
+    }
+};
+
+TEST_F(Followers, EndWithTheProcessThatRunsThem) {
+    const auto [parent, program] = start();
+    kill(parent, SIGKILL);
+    waitpid(parent, nullptr, 0);
+    EXPECT_TRUE(endsSoon(program));
+}
+
+TEST_F(Followers, EndWhenThatProcessIsInterrupted) {
+    const auto [parent, program] = start();
+    int status = -1;
+    EXPECT_EQ(waitpid(parent, &status, 0), parent);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_TRUE(endsSoon(program));
 }
 
 TEST(ChildProcess, HasTheLastSettingOfAName) {

@@ -1,6 +1,7 @@
 // brittle devices: what there is to run on.
 #include "engine/device.h"
 #include "tools/brittle/command.h"
+#include "tools/device_check/device_facts.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,7 +10,9 @@
 namespace cli {
 namespace {
 
-void printJson(const std::vector<engine::DeviceInfo>& devices, const std::string& chosen) {
+constexpr uint32_t kNone = ~0u;
+
+void printJson(const std::vector<engine::DeviceInfo>& devices, uint32_t chosen) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const engine::DeviceInfo& d : devices)
         list.push_back({{"index", d.index},
@@ -18,13 +21,13 @@ void printJson(const std::vector<engine::DeviceInfo>& devices, const std::string
                         {"cpu", d.cpu},
                         {"usable", d.usable},
                         {"why_not", d.why_not},
-                        {"chosen", d.name == chosen}});
+                        {"chosen", d.index == chosen}});
     std::printf("%s\n", list.dump(2).c_str());
 }
 
-void printText(const std::vector<engine::DeviceInfo>& devices, const std::string& chosen) {
+void printText(const std::vector<engine::DeviceInfo>& devices, uint32_t chosen) {
     for (const engine::DeviceInfo& d : devices) {
-        const std::string state = !d.usable ? "not usable: " + d.why_not : d.name == chosen ? "chosen" : "usable";
+        const std::string state = !d.usable ? "not usable: " + d.why_not : d.index == chosen ? "chosen" : "usable";
         std::printf("%u  %s, %s%s: %s\n", d.index, d.name.c_str(), d.driver.c_str(), d.cpu ? " (CPU)" : "", state.c_str());
     }
 }
@@ -33,8 +36,8 @@ int runDevices(const std::string& wanted, bool as_json) {
     const std::vector<engine::DeviceInfo> devices = engine::listDevices();
     const auto chosen = engine::Device::create({.select = wanted});
     if (devices.empty() && !chosen) return fail(chosen.error());
-    const std::string name = chosen ? (*chosen)->name() : "";
-    as_json ? printJson(devices, name) : printText(devices, name);
+    const uint32_t index = chosen ? device_check::indexOf(**chosen) : kNone;
+    as_json ? printJson(devices, index) : printText(devices, index);
     return chosen ? kOk : fail(chosen.error());
 }
 

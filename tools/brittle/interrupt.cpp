@@ -11,6 +11,7 @@ namespace {
 std::mutex begun_mutex;
 std::vector<std::filesystem::path> begun; // named after this process, so that what is still there is ours
 std::vector<std::filesystem::path> made;  // folders, the outermost first
+std::vector<std::function<void()>> actions;
 
 sigset_t interrupts() {
     sigset_t set;
@@ -62,8 +63,15 @@ void cleanUpWhenInterrupted() {
         int signal = 0;
         if (sigwait(&set, &signal) != 0) return;
         removeBegun();
+        for (const auto& action : actions)
+            action();
         endBy(signal);
     }).detach();
+}
+
+void whenInterrupted(std::function<void()> action) {
+    const std::lock_guard lock(begun_mutex);
+    actions.push_back(std::move(action));
 }
 
 engine::Result<brittle::OutputFile> createOutput(const std::filesystem::path& path) {

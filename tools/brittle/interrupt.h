@@ -4,6 +4,7 @@
 #include "modules/brittle/export/output_file.h"
 
 #include <filesystem>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace cli {
 // From here on SIGINT, SIGTERM and SIGHUP remove what createOutput has begun and was not committed, and what folders are empty
 // of those that OutputFolder has made, and end the process as they would have. To be called before any other thread is started.
 void cleanUpWhenInterrupted();
+
+// Has an interrupt call this as well, after those files are removed. It runs on a thread of its own.
+void whenInterrupted(std::function<void()> action);
 
 // OutputFile::create, for a file that an interrupt removes.
 engine::Result<brittle::OutputFile> createOutput(const std::filesystem::path& path);

@@ -7,10 +7,12 @@
 #include "tools/brittle/simulation.h"
 #include "tools/compare/compare_report.h"
 #include "tools/compare/recording_comparison.h"
+#include "tools/compare/scene_hash.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -84,13 +86,17 @@ brittle::ComparisonOptions comparisonOf(const CompareOptions& options, uint32_t 
 struct Stage {
     std::unique_ptr<engine::Device> device;
     StagedScene staged;
+    uint64_t scene_hash = 0;
     uint32_t steps = 0;
 };
+
+uint32_t groupSizeOf(const CompareOptions& options) { return options.group_size == 0 ? GROUP_SIZE : options.group_size; }
 
 Result<Stage> setStage(const CompareOptions& options) {
     auto scene = readSceneOrBuiltin(options.scene);
     if (!scene) return scene.error();
     Stage stage;
+    stage.scene_hash = compare::hashOfScene(*scene, folderOf(options.scene));
     auto device = openDevice(options.devices[0]);
     if (!device) return device.error();
     stage.device = std::move(*device);
@@ -125,10 +131,17 @@ Result<CompareReport> compareDevices(const CompareOptions& options) {
 }
 
 Result<void> checkScene(const CompareOptions& options, const Stage& stage, const MotionRecording& recording) {
-    if (recording.scene == stage.staged.scene.name && recording.dt == stage.staged.scene.step.dt) return {};
-    return Error{ErrorCode::BadInput, options.against + ": is a recording of the scene \"" + recording.scene +
-                                          "\" in steps of " + std::to_string(recording.dt) +
-                                          " s; compare it with the same scene"};
+    const auto differs = [&](const std::string& how) { return Error{ErrorCode::BadInput, options.against + ": " + how}; };
+    if (recording.scene != stage.staged.scene.name || recording.dt != stage.staged.scene.step.dt)
+        return differs("is a recording of the scene \"" + recording.scene + "\" in steps of " + std::to_string(recording.dt) +
+                       " s; compare it with the same scene");
+    if (recording.scene_hash != stage.scene_hash)
+        return differs("is a recording of another scene with the name \"" + recording.scene +
+                       "\": bodies, settings or models differ; compare it with the same scene");
+    if (recording.group_size != groupSizeOf(options))
+        return differs("was recorded with workgroups of " + std::to_string(recording.group_size) +
+                       " lanes; give --group-size " + std::to_string(recording.group_size));
+    return {};
 }
 
 // Without --steps and --seconds as many steps as were recorded.
@@ -170,6 +183,8 @@ Result<MotionRecording> record(const CompareOptions& options) {
     recording->scene = stage->staged.scene.name;
     recording->device = a->described().name;
     recording->driver = a->described().driver;
+    recording->scene_hash = stage->scene_hash;
+    recording->group_size = groupSizeOf(options);
     recording->dt = stage->staged.scene.step.dt;
     return recording;
 }
@@ -212,7 +227,9 @@ void addComparisonOptions(CLI::App& command, CompareOptions& options) {
     auto* steps = command.add_option("--steps", options.steps, "how many steps; else as many as the scene says");
     inRange(steps, 1, kMostCompared);
     auto* seconds = command.add_option("--seconds", options.seconds, "how long, rounded up to whole steps");
-    inRange(seconds, 0, 1e6)->excludes(steps);
+    inRange(seconds, 0, 1e6)->excludes(steps)->check([](const std::string& text) {
+        return std::strtod(text.c_str(), nullptr) > 0 ? "" : "must be above 0";
+    });
     command.add_flag("--whole", options.whole, "make all steps, also after the first difference");
 }
 
@@ -223,6 +240,8 @@ void addFileOptions(CLI::App& command, CompareOptions& options) {
     against->check(someText);
     auto* passes = command.add_option("--passes-of", options.passes_of, "record what the passes of this step write as well");
     inRange(passes, 1, kMostCompared)->needs(record);
+    for (const char* flag : {"--whole", "--json", "--fail-on-difference"})
+        command.get_option(flag)->excludes(record); // a recording compares nothing
 }
 
 } // namespace
@@ -233,9 +252,9 @@ void addCompare(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     auto options = std::make_shared<CompareOptions>();
     addComparisonOptions(*command, *options);
-    addFileOptions(*command, *options);
     command->add_flag("--json", options->as_json, "print one JSON object");
     command->add_flag("--fail-on-difference", options->fail_on_difference, "exit with 1 if the devices differ");
+    addFileOptions(*command, *options);
     addGroupSizeOption(*command, options->group_size, "; the motion is the same");
     command->callback([options, &exit_code] { exit_code = runCompare(*options); });
 }

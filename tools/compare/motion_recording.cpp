@@ -1,11 +1,16 @@
 #include "tools/compare/motion_recording.h"
 
+#include "modules/brittle/mesh/byte_hash.h"
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <string_view>
 
 namespace compare {
 namespace {
@@ -15,7 +20,9 @@ using engine::ErrorCode;
 using engine::Result;
 using nlohmann::json;
 
-constexpr const char* kFormat = "brittle motion 1"; // CBOR
+// A file is a CBOR map: the format, the content as CBOR bytes, and their FNV-1a hash.
+constexpr const char* kFormat = "brittle motion 2";
+constexpr std::string_view kAnyFormat = "brittle motion ";
 
 template <class T>
 json blobOf(const std::vector<T>& list) {
@@ -85,36 +92,95 @@ brittle::RecordedStep stepOf(const json& object) {
 }
 
 MotionRecording recordingOf(const json& object) {
-    MotionRecording recording = {object.at("scene"), object.at("device"), object.at("driver"), object.at("dt"), {}, {}};
+    MotionRecording recording = {object.at("scene"),
+                                 object.at("device"),
+                                 object.at("driver"),
+                                 object.at("scene_hash"),
+                                 object.at("group_size"),
+                                 object.at("dt"),
+                                 {},
+                                 {}};
     for (const json& bodies : object.at("steps"))
         recording.steps.push_back(listOf<gpu::BodyState>(bodies));
     if (object.contains("passes")) recording.passes = stepOf(object.at("passes"));
     return recording;
 }
 
+uint64_t hashOf(std::span<const uint8_t> bytes) {
+    brittle::ByteHash hash;
+    hash.add(std::as_bytes(bytes));
+    return hash.value();
+}
+
+// Returns what is wrong with a recording, or an empty text.
+std::string problemOf(const MotionRecording& recording) {
+    if (!std::isfinite(recording.dt) || recording.dt <= 0) return "its step has no length";
+    if (recording.steps.empty()) return "it has no steps";
+    for (const auto& bodies : recording.steps)
+        if (bodies.empty()) return "it has a step without bodies";
+    if (!recording.passes) return "";
+    if (recording.passes->step < 1 || recording.passes->step > recording.steps.size())
+        return "it has passes of step " + std::to_string(recording.passes->step) + ", and only " +
+               std::to_string(recording.steps.size()) + " steps";
+    if (recording.passes->passes.empty() || recording.passes->state.empty()) return "it has a recorded step without passes";
+    return "";
+}
+
+Error refused(const std::filesystem::path& path, const std::string& why) {
+    return {ErrorCode::BadInput, path.string() + ": " + why};
+}
+
+// Throws what json throws if it is no recording.
+Result<MotionRecording> openRecording(const std::filesystem::path& path, const json& file) {
+    const std::string format = file.at("format");
+    if (format.starts_with(kAnyFormat) && format != kFormat)
+        return refused(path, "was recorded by another version of Brittle; record the motion again");
+    if (format != kFormat) return refused(path, "is no recorded motion; give a file that --record has written");
+    const std::vector<uint8_t>& content = file.at("content").get_binary();
+    if (hashOf(content) != file.at("hash").get<uint64_t>())
+        return refused(path, "is a damaged recording: its checksum is wrong; copy or record it again");
+    MotionRecording recording = recordingOf(json::from_cbor(content));
+    const std::string problem = problemOf(recording);
+    if (!problem.empty()) return refused(path, "cannot be compared with: " + problem + "; record the motion again");
+    return recording;
+}
+
+// A file cut short is no whole CBOR any more, but still begins like one of ours.
+bool beginsLikeARecording(const std::vector<uint8_t>& bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 256));
+    return text.find(kAnyFormat) != std::string_view::npos || text.find("content") != std::string_view::npos;
+}
+
 } // namespace
 
 Result<void> writeRecording(brittle::OutputFile& file, const MotionRecording& recording) {
-    json object = {{"format", kFormat},          {"scene", recording.scene}, {"device", recording.device},
-                   {"driver", recording.driver}, {"dt", recording.dt},       {"steps", json::array()}};
+    json object = {{"scene", recording.scene},   {"scene_hash", recording.scene_hash}, {"group_size", recording.group_size},
+                   {"device", recording.device}, {"driver", recording.driver},         {"dt", recording.dt},
+                   {"steps", json::array()}};
     for (const auto& bodies : recording.steps)
         object["steps"].push_back(blobOf(bodies));
     if (recording.passes) object["passes"] = toJson(*recording.passes);
-    const std::vector<uint8_t> bytes = json::to_cbor(object);
+    std::vector<uint8_t> content = json::to_cbor(object);
+    const uint64_t hash = hashOf(content);
+    const std::vector<uint8_t> bytes =
+        json::to_cbor({{"format", kFormat}, {"hash", hash}, {"content", json::binary(std::move(content))}});
     if (auto written = file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !written) return written;
     return file.commit();
 }
 
 Result<MotionRecording> readRecording(const std::filesystem::path& path) {
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown))
+        return refused(path, "is a folder; give a file that --record has written");
     std::ifstream file(path, std::ios::binary);
-    if (!file) return Error{ErrorCode::BadInput, path.string() + ": cannot be read; give a file that --record has written"};
+    if (!file) return refused(path, "cannot be read; give a file that --record has written");
     const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
     try {
-        const json object = json::from_cbor(bytes);
-        if (object.at("format") == kFormat) return recordingOf(object);
+        return openRecording(path, json::from_cbor(bytes));
     } catch (const json::exception&) { // said below
     }
-    return Error{ErrorCode::BadInput, path.string() + ": is no recorded motion; give a file that --record has written"};
+    if (beginsLikeARecording(bytes)) return refused(path, "is a damaged recording; copy or record it again");
+    return refused(path, "is no recorded motion; give a file that --record has written");
 }
 
 } // namespace compare

@@ -14,6 +14,8 @@ namespace compare {
 
 struct MotionRecording {
     std::string scene, device, driver;
+    uint64_t scene_hash = 0;                        // of its description and models (scene_hash.h)
+    uint32_t group_size = 0;                        // lanes of a workgroup
     double dt = 0;                                  // seconds per step
     std::vector<std::vector<gpu::BodyState>> steps; // bodies after each step, as World::bodies returns them
     std::optional<brittle::RecordedStep> passes;    // of one step, if they were asked for
@@ -22,7 +24,8 @@ struct MotionRecording {
 // Writes and commits a file that was opened before the motion was made. Errors: BadInput if it cannot be written.
 engine::Result<void> writeRecording(brittle::OutputFile& file, const MotionRecording& recording);
 
-// Errors: BadInput for a file that cannot be read or is no recording, with its name.
+// Errors: BadInput, with the file's name, for a file that cannot be read, is no recording, is damaged, is of another format, or
+// has no steps, no bodies, or passes of a step that it does not have.
 engine::Result<MotionRecording> readRecording(const std::filesystem::path& path);
 
 } // namespace compare

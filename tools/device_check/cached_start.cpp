@@ -2,10 +2,16 @@
 
 namespace device_check {
 
+std::vector<std::string> cacheSettings(const std::filesystem::path& cache) {
+    const std::string folder = cache.string();
+    return {"MESA_SHADER_CACHE_DISABLE=false", "MESA_SHADER_CACHE_DIR=" + folder, "__GL_SHADER_DISK_CACHE=1",
+            "__GL_SHADER_DISK_CACHE_PATH=" + folder, "XDG_CACHE_HOME=" + folder};
+}
+
 ChildEnd runWithCache(ChildCommand command, const std::filesystem::path& cache) {
-    for (const char* name : {"MESA_SHADER_CACHE_DIR", "__GL_SHADER_DISK_CACHE_PATH", "XDG_CACHE_HOME", "HOME"})
-        command.environment.push_back(std::string(name) + "=" + cache.string());
-    command.environment.emplace_back("__GL_SHADER_DISK_CACHE=1"); // NVIDIA's driver keeps none for root otherwise
+    for (std::string& setting : cacheSettings(cache))
+        command.environment.push_back(std::move(setting));
+    command.environment.push_back("HOME=" + cache.string());
     return runChild(command, [](std::string_view) {});
 }
 

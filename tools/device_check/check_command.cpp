@@ -5,6 +5,7 @@
 #include "tools/brittle/interrupt.h"
 #include "tools/brittle/progress.h"
 #include "tools/device_check/check_parts.h"
+#include "tools/device_check/check_summary.h"
 #include "tools/device_check/device_facts.h"
 #include "tools/device_check/device_work.h"
 
@@ -82,36 +83,50 @@ constexpr double kWholeCheck = 350, kWorthGoingOn = 10, kLongestWork = 3600; // 
 // The parts of one check, in order.
 class Check {
 public:
-    Check(const Options& options, std::filesystem::path scratch)
+    Check(const Options& options, std::filesystem::path scratch, std::filesystem::path cache)
         : options_(options), scratch_(std::move(scratch)),
-          kit_(kitFolder(options), launcherOf(options), options.device, scratch_), expected_(kit_.expected()),
-          until_(inSeconds(kWholeCheck * options.scale)) {}
+          kit_(kitFolder(options), launcherOf(options), options.device, std::move(cache)),
+          expected_(kit_.expected(expected_problem_)), until_(inSeconds(kWholeCheck * options.scale)) {}
 
-    // The part about the device always runs: without a device nothing else can.
+    // The part about the device always runs: without a device nothing else can. Only then are files of an earlier check
+    // replaced.
     int run(Results& results) {
         const auto parts = device_check::checkParts();
-        if (const Json first = runPart(parts.front(), results); !first.contains("facts"))
+        const Json first = runPart(parts.front());
+        if (!first.contains("facts"))
             return fail({engine::ErrorCode::Device, "no device to check: " + first.value("reason", "it said nothing")});
+        if (auto kept = keepEarlier(results); !kept) return fail(kept.error());
+        results.add(parts.front().name, first);
         for (const Part& part : parts.subspan(1))
-            if (isWanted(options_, part)) runPart(part, results);
+            if (isWanted(options_, part)) results.add(part.name, runPart(part));
         for (const Part& part : parts)
             if (part.goes_on && isWanted(options_, part)) goOn(part, results);
         return hasFailed(results) ? kInternalError : kOk;
     }
 
 private:
-    Json runPart(const Part& part, Results& results) {
+    static engine::Result<void> keepEarlier(Results& results) {
+        const auto kept = results.keepEarlier();
+        if (!kept) return kept.error();
+        std::string names;
+        for (const std::string& name : *kept)
+            names += (names.empty() ? "" : " and ") + name;
+        if (!names.empty()) std::printf("the results of an earlier check are now in %s\n", names.c_str());
+        return {};
+    }
+
+    Json runPart(const Part& part) {
         showProgress(part.title);
         const auto start = Clock::now();
         const auto until = std::min(inSeconds(part.limit_s * options_.scale), until_);
-        Json outcome = part.run({kit_, expected_, facts_, scratch_, test_runs_, until});
+        Json outcome = part.run({kit_, expected_, expected_problem_, facts_, scratch_, test_runs_, until});
+        device_check::excuseFullDisk(outcome, scratch_);
         outcome["title"] = part.title;
         outcome["seconds"] = secondsSince(start);
         outcome["limit_s"] = part.limit_s * options_.scale;
         if (outcome.contains("facts")) facts_ = outcome["facts"];
         clearProgress();
         tell(part, outcome);
-        results.add(part.name, outcome);
         return outcome;
     }
 
@@ -122,7 +137,7 @@ private:
         if (left < kWorthGoingOn * options_.scale || before.is_null() || !hasTestsLeft(before)) return;
         Part more = part;
         more.limit_s = left / options_.scale;
-        Json outcome = runPart(more, results);
+        Json outcome = runPart(more);
         outcome["seconds"] = outcome["seconds"].get<double>() + before["seconds"].get<double>();
         outcome["limit_s"] = outcome["limit_s"].get<double>() + before["limit_s"].get<double>();
         results.add(part.name, outcome);
@@ -131,7 +146,7 @@ private:
     static bool hasTestsLeft(const Json& part) {
         if (!part.contains("programs")) return false;
         return std::ranges::any_of(part["programs"],
-                                   [](const Json& run) { return run["not run"] != 0 || run.contains("problem"); });
+                                   [](const Json& run) { return run["not run"] != 0 || !run["listed"].get<bool>(); });
     }
 
     static bool hasFailed(Results& results) {
@@ -141,6 +156,7 @@ private:
     const Options& options_;
     std::filesystem::path scratch_;
     Kit kit_;
+    std::string expected_problem_; // before expected_, which sets it
     Json expected_, facts_;
     Clock::time_point until_;
     device_check::TestRuns test_runs_;
@@ -154,17 +170,50 @@ engine::Result<std::filesystem::path> scratchIn(const std::filesystem::path& fol
     return engine::Error{engine::ErrorCode::BadInput, folder.string() + ": cannot be written to; give another folder with -o"};
 }
 
+constexpr uint64_t kRoomForCache = 256 << 20; // bytes
+
+// The folder in which drivers keep compiled kernels, beside the results: a second check starts warm. None if the disk is nearly
+// full. Mesa 22.3 confuses kernels of different subgroup sizes, so each size of lavapipe has a folder.
+std::filesystem::path cacheIn(const std::filesystem::path& folder, Json& about) {
+    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    const std::filesystem::path cache = folder / (std::string("compiled") + (width != nullptr ? std::string("-") + width : ""));
+    std::error_code failed;
+    about = "filled by an earlier check";
+    if (std::filesystem::is_directory(cache, failed) && !std::filesystem::is_empty(cache, failed)) return cache;
+    about = "none, there is too little room on the disk";
+    if (device_check::freeBytes(folder) < kRoomForCache) return {};
+    about = "empty at the beginning";
+    std::filesystem::create_directories(cache, failed);
+    return cache;
+}
+
+void sayEnd(Results& results, int code) {
+    if (code == kDeviceError || code == kBadInput) return;
+    results.json()["ended"] = true;
+    results.json()["unchecked"] = device_check::uncheckedIn(results.json()["parts"]);
+    results.write();
+    std::printf("results in %s%s\n", (results.folder() / "results.html").c_str(),
+                results.wasWritten() ? "" : ", as far as they could be written");
+    const auto unchecked = results.json()["unchecked"].get<std::string>();
+    if (!unchecked.empty()) std::printf("%s\n", unchecked.c_str());
+}
+
 int runCheck(const Options& options) {
     std::signal(SIGPIPE, SIG_IGN);
     const std::filesystem::path folder = options.output.empty() ? kitFolder(options) : std::filesystem::path(options.output);
     const auto scratch = scratchIn(folder);
     if (!scratch) return fail(scratch.error());
+    whenInterrupted([path = *scratch] {
+        device_check::endChildren();
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    });
     Results results(folder, {{kitFolder(options).string(), "KIT"}, {scratch->string(), "SCRATCH"}});
-    results.json() = {{"format", 1}, {"brittle", aboutProgram()}, {"parts", Json::object()}};
-    const int code = Check(options, *scratch).run(results);
-    if (code != kDeviceError)
-        std::printf("results in %s%s\n", (results.folder() / "results.html").c_str(),
-                    results.wasWritten() ? "" : ", as far as they could be written");
+    results.json() = {{"format", 1}, {"brittle", aboutProgram()}, {"ended", false}};
+    const std::filesystem::path cache = cacheIn(folder, results.json()["compiled_kernels"]);
+    results.json()["parts"] = Json::object();
+    const int code = Check(options, *scratch, cache).run(results);
+    sayEnd(results, code);
     std::error_code ignored;
     std::filesystem::remove_all(*scratch, ignored);
     return code == kOk && !results.wasWritten() ? int{kBadInput} : code;
@@ -176,7 +225,7 @@ engine::Result<Json> linesOf(const Options& options, const std::string& work) {
     Json lines = Json::array();
     const auto add = [&](std::string_view text) {
         if (Json line = Json::parse(text, nullptr, /*allow_exceptions=*/false); line.is_object())
-            lines.push_back(std::move(line));
+            if (!line.contains("of")) lines.push_back(std::move(line));
         showProgress("expected " + work + ": " + std::to_string(lines.size()));
     };
     const auto end =

@@ -1,7 +1,8 @@
 // The parts of a check, in order. Each has a time limit of its own and gives one JSON object:
 //     status   "passed", "failed", "stopped" (its time ran out and nothing had failed) or "skipped"
 //     reason   one line, unless it passed
-// and what it found beside that.
+//     done, of how many of its tests, fractures, scenes or runs have ended, and how many there are
+// and the findings.
 #pragma once
 
 #include "tools/device_check/results.h"
@@ -18,7 +19,8 @@ using TestRuns = std::map<std::string, TestRun>;
 
 struct PartContext {
     const Kit& kit;
-    const Json& expected;         // of a known device; may be null
+    const Json& expected; // of a known device; null if there is a problem
+    const std::string& expected_problem;
     const Json& facts;            // of this device, once part "device" has run; else null
     std::filesystem::path folder; // for what a part must write; exists
     TestRuns& test_runs;          // the runs until now: a part that is called again goes on with the rest

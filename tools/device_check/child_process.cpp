@@ -9,8 +9,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <mutex>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -44,32 +44,20 @@ private:
     bool open_ = false;
 };
 
-// Its own process group, so that its children can be ended with it; default signals, whatever this process blocks or ignores.
-void setAttributes(posix_spawnattr_t& attributes) {
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    sigset_t none, defaults;
-    sigemptyset(&none);
-    sigemptyset(&defaults);
-    for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
-        sigaddset(&defaults, signal);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-}
+// The programs that run now. Their groups are ended if this process is interrupted.
+std::mutex running_mutex;
+std::vector<pid_t> running;
 
 int spawn(const ChildCommand& command, const Pipe& out, const Pipe& errors, pid_t& pid) {
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, out.writing(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, errors.writing(), STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    setAttributes(attributes);
-    const int failed = spawnProgram(command.words, command.environment, files, &attributes, pid);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
+    const std::lock_guard lock(running_mutex);
+    const int failed = spawnFollower(command.words, command.environment, {out.writing(), errors.writing()}, pid);
+    if (failed == 0) running.push_back(pid);
     return failed;
+}
+
+void forget(pid_t pid) {
+    const std::lock_guard lock(running_mutex);
+    std::erase(running, pid);
 }
 
 // Cuts what arrives into lines.
@@ -192,9 +180,20 @@ ChildEnd runChild(const ChildCommand& command, const LineHandler& line) {
     errors.closeEnd(1);
     end.kind = follow(command, out, errors, line, end.errors);
     finish(pid, end);
+    forget(pid);
     end.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     end.reason = reasonOf(end, command);
     return end;
+}
+
+void endChildren() {
+    running_mutex.lock(); // for good: nothing new is started
+    for (const pid_t pid : running)
+        kill(-pid, SIGKILL);
+    const auto until = Clock::now() + std::chrono::seconds(1);
+    const auto is_left = [](pid_t pid) { return kill(-pid, 0) == 0; };
+    while (std::ranges::any_of(running, is_left) && Clock::now() < until)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 std::string ownPath() {

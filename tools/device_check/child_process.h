@@ -39,9 +39,14 @@ using LineHandler = std::function<void(std::string_view line)>;
 
 // Blocks until the program has ended. Its standard input is empty. `line` is called on this thread, without the line break,
 // for each line of standard output; an unfinished last line counts. If the program is ended, its children are ended as well.
+// If this process ends, or the calling thread, the kernel ends the program.
 // A program that does not end after SIGKILL (a driver that hangs) is left behind after five seconds. Safe from several
 // threads at a time.
 ChildEnd runChild(const ChildCommand& command, const LineHandler& line);
+
+// Ends all programs that runChild runs now, with their children, and starts no more. Call it once, before this process ends:
+// runChild does not return any more.
+void endChildren();
 
 // The path of this program. Empty if the system does not tell.
 std::string ownPath();

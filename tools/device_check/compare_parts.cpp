@@ -11,6 +11,7 @@ constexpr const char* kComparedSeconds = "0.5"; // as the recordings have (tools
 // The lines that `brittle check-device --work` prints, as they come.
 struct Work {
     Json lines = Json::array();
+    size_t of = 0; // how many lines there are in all
     ChildEnd end;
 };
 
@@ -20,8 +21,12 @@ Work runWork(const PartContext& context, const std::string& what) {
         context.kit.command("brittle", {"check-device", "--work", what, "--kit", context.kit.path("").string()}, context.until),
         [&](std::string_view text) {
             Json line = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-            if (line.is_object()) work.lines.push_back(std::move(line));
+            if (line.is_object() && line.contains("of"))
+                work.of = line["of"].get<size_t>();
+            else if (line.is_object())
+                work.lines.push_back(std::move(line));
         });
+    work.of = std::max(work.of, work.lines.size());
     return work;
 }
 
@@ -42,15 +47,23 @@ const char* comparison(const Json& line, const Json& expected, const char* key) 
     return line.value(key, Json()) == expected[key] ? "equal" : "differs";
 }
 
-// Failed if anything was found; else stopped or failed if the process did not end well.
-Json outcomeOf(const Work& work, size_t findings, const std::string& what) {
-    Json outcome;
-    const bool out_of_time = work.end.kind == ChildEnd::Kind::OutOfTime;
-    outcome["status"] = findings > 0 ? "failed" : work.end.isGood() ? "passed" : out_of_time ? "stopped" : "failed";
-    if (findings > 0)
-        outcome["reason"] = std::to_string(findings) + " " + what;
-    else if (!work.end.isGood())
-        outcome["reason"] = work.end.reason;
+std::string countOf(const Work& work, const std::string& things) {
+    return std::to_string(work.lines.size()) + " of " + std::to_string(work.of) + " " + things;
+}
+
+// Failed if anything was found; else stopped if the time ran out, or failed if the process ended otherwise or too early.
+Json outcomeOf(const Work& work, size_t findings, const std::string& what, const std::string& things) {
+    const bool late = work.end.kind == ChildEnd::Kind::OutOfTime, whole = work.lines.size() == work.of;
+    Json outcome = {{"status", findings > 0 ? "failed" : work.end.isGood() && whole ? "passed" : late ? "stopped" : "failed"}};
+    std::string reason;
+    if (findings > 0) reason = what;
+    if (!whole) reason += (reason.empty() ? "" : "; ") + countOf(work, things) + " were done" + (late ? " in the time" : "");
+    if (!work.end.isGood() && !late) reason += (reason.empty() ? "" : "; ") + work.end.reason;
+    if (outcome["status"] == "stopped" && reason.empty()) reason = work.end.reason;
+    if (!reason.empty()) outcome["reason"] = reason;
+    outcome["done"] = work.lines.size();
+    outcome["of"] = work.of;
+    if (findings > 0) outcome["differing"] = findings;
     return outcome;
 }
 
@@ -59,7 +72,7 @@ bool modelFails(Json& line, const Json& known) {
     if (line.contains("error")) return known.is_null() || known.value("error", "") != line["error"];
     for (const char* key : {"topology", "positions", "attributes", "masses"})
         line[std::string(key) + "_is"] = comparison(line, known, key);
-    return line["topology_is"] == "differs" || line["positions_is"] == "differs" || !line.value("violation", "").empty();
+    return line["topology_is"] != "equal" || line["positions_is"] != "equal" || !line.value("violation", "").empty();
 }
 
 bool sceneFails(Json& line, const Json& known) {
@@ -70,71 +83,121 @@ bool sceneFails(Json& line, const Json& known) {
     return !line["same_bits_twice"].get<bool>();
 }
 
+struct Compared {
+    const char* list;   // of the expected results, and the work
+    const char* things; // for messages
+    const char* differ; // what findings are
+    const char* source; // the file or folder of the kit that they come from
+    std::initializer_list<const char*> keys;
+};
+
+// Counts lines that differ and lines with an error, and describes them.
+class Findings {
+public:
+    void add(const Json& line, const Compared& compared) {
+        ++(line.contains("error") ? errors_ : differing_);
+        if (errors_ == 1 && first_error_.empty())
+            first_error_ = line.value(*compared.keys.begin(), "?") + ": " + line["error"].get<std::string>();
+    }
+    size_t count() const { return differing_ + errors_; }
+    std::string text(const Compared& compared) const {
+        std::string text;
+        if (differing_ > 0) text = std::to_string(differing_) + " " + compared.differ;
+        if (errors_ > 0)
+            text += (text.empty() ? "" : "; ") + std::to_string(errors_) + " " + compared.things +
+                    " ended with an error, first " + first_error_;
+        return text;
+    }
+
+private:
+    size_t differing_ = 0, errors_ = 0;
+    std::string first_error_;
+};
+
+// Without expected results nothing can be compared: the part fails, and says so.
 template <class Fails>
-Json compare(const PartContext& context, const char* list, std::initializer_list<const char*> keys, const std::string& what,
-             Fails&& fails) {
-    Work work = runWork(context, list);
-    size_t findings = 0;
-    for (Json& line : work.lines)
-        findings += fails(line, expectedFor(context.expected, list, line, keys)) ? 1 : 0;
-    if (work.end.isGood() && work.lines.empty())
-        return {{"status", "skipped"}, {"reason", std::string("the folder has no ") + list}};
-    Json outcome = outcomeOf(work, findings, what);
-    if (context.expected.is_null() && !outcome.contains("reason"))
-        outcome["reason"] = "nothing was compared: the folder has no expected.json";
-    outcome[list] = std::move(work.lines);
+Json compare(const PartContext& context, const Compared& compared, Fails&& fails) {
+    Work work = runWork(context, compared.list);
+    Findings findings;
+    if (context.expected.is_object())
+        for (Json& line : work.lines)
+            if (fails(line, expectedFor(context.expected, compared.list, line, compared.keys))) findings.add(line, compared);
+    Json outcome = outcomeOf(work, findings.count(), findings.text(compared), compared.things);
+    if (work.of == 0 && work.end.isGood())
+        outcome = {{"status", "failed"}, {"reason", std::string(compared.source) + " is missing"}};
+    if (!context.expected.is_object()) {
+        outcome["status"] = "failed";
+        outcome["reason"] = "nothing was compared: " + context.expected_problem;
+    }
+    outcome[compared.list] = std::move(work.lines);
     return outcome;
+}
+
+// Compares one scene's motion with a recording of it. Returns the report, or {"error", "out_of_time"}.
+Json compareWith(const PartContext& context, const std::filesystem::path& recording) {
+    std::string text;
+    const ChildEnd end = runChild(
+        context.kit.command("brittle",
+                            {"compare", "--device", std::to_string(context.facts.value("index", 0)), recording.stem().string(),
+                             "--seconds", kComparedSeconds, "--against", recording.string(), "--whole", "--json"},
+                            context.until),
+        [&](std::string_view line) { text += line; });
+    Json report = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    if (end.isGood() && report.is_object()) return report;
+    return {{"error", end.reason.empty() ? "no report" : end.reason}, {"out_of_time", end.kind == ChildEnd::Kind::OutOfTime}};
 }
 
 } // namespace
 
 Json checkDevice(const PartContext& context) {
     Work work = runWork(context, "facts");
-    Json outcome = outcomeOf(work, 0, "");
+    Json outcome = outcomeOf(work, 0, "", "devices");
+    outcome.erase("done");
+    outcome.erase("of");
     if (!work.lines.empty()) outcome["facts"] = work.lines[0];
     return outcome;
 }
 
 Json checkModels(const PartContext& context) {
-    return compare(context, "models", {"model", "sites"}, "fractures differ from the expected ones", modelFails);
+    return compare(context,
+                   {"models", "fractures", "fractures differ from the expected ones", "meshes.txt", {"model", "sites"}},
+                   modelFails);
 }
 
 Json checkScenes(const PartContext& context) {
-    return compare(context, "scenes", {"scene", "seconds"}, "scenes gave other bits the second time", sceneFails);
+    return compare(context,
+                   {"scenes", "scenes", "scenes gave other bits the second time", "the list of scenes", {"scene", "seconds"}},
+                   sceneFails);
 }
 
 // Motion differs between devices by rounding; this tells where that begins. So a difference is no failure.
 Json compareMotion(const PartContext& context) {
-    Json outcome, scenes = Json::array();
-    outcome["status"] = "passed";
-    for (const std::filesystem::path& recording : context.kit.recordings()) {
-        const std::string scene = recording.stem().string();
-        std::string text;
-        const ChildEnd end =
-            runChild(context.kit.command("brittle",
-                                         {"compare", "--device", context.facts.value("name", "0"), scene, "--seconds",
-                                          kComparedSeconds, "--against", recording.string(), "--whole", "--json"},
-                                         context.until),
-                     [&](std::string_view line) { text += line; });
-        const Json report = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-        if (end.isGood() && report.is_object()) {
-            scenes.push_back(report);
+    const std::vector<std::filesystem::path> recordings = context.kit.recordings();
+    if (recordings.empty()) return {{"status", "failed"}, {"reason", "nothing was compared: recordings are missing"}};
+    Json outcome = {{"status", "passed"}}, scenes = Json::array();
+    for (const std::filesystem::path& recording : recordings) {
+        Json report = compareWith(context, recording);
+        if (!report.contains("error")) {
+            scenes.push_back(std::move(report));
             continue;
         }
-        outcome["status"] = end.kind == ChildEnd::Kind::OutOfTime ? "stopped" : "failed";
-        outcome["reason"] = scene + ": " + (end.reason.empty() ? "no report" : end.reason);
+        const bool late = report["out_of_time"].get<bool>();
+        if (outcome["status"] != "failed") outcome["status"] = late ? "stopped" : "failed";
+        const std::string before = outcome.contains("reason") ? outcome["reason"].get<std::string>() + "; " : "";
+        outcome["reason"] = before + recording.stem().string() + ": " + report["error"].get<std::string>();
     }
-    if (context.kit.recordings().empty()) return {{"status", "skipped"}, {"reason", "the folder has no recordings"}};
+    outcome["done"] = scenes.size();
+    outcome["of"] = recordings.size();
     outcome["scenes"] = std::move(scenes);
     return outcome;
 }
 
 Json measureIdle(const PartContext& context) {
     if (!std::filesystem::exists(context.kit.example("quiet_shelf")))
-        return {{"status", "skipped"}, {"reason", "the folder has no example scenes"}};
+        return {{"status", "failed"}, {"reason", "the scene quiet_shelf is missing"}};
     Work work = runWork(context, "idle");
     const auto failed = std::ranges::count_if(work.lines, [](const Json& line) { return line.contains("error"); });
-    Json outcome = outcomeOf(work, static_cast<size_t>(failed), "scenes could not be stepped");
+    Json outcome = outcomeOf(work, static_cast<size_t>(failed), "scenes could not be stepped", "measurements");
     outcome["steps"] = std::move(work.lines);
     return outcome;
 }

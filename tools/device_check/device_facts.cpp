@@ -1,5 +1,6 @@
 #include "tools/device_check/device_facts.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -113,10 +114,16 @@ Json extensionsOf(const engine::Device& device) {
 
 } // namespace
 
+uint32_t indexOf(const engine::Device& device) {
+    const auto all = engine::physicalDevices(device.instanceFunctions(), device.instanceHandle());
+    return static_cast<uint32_t>(std::ranges::find(all, device.physical()) - all.begin());
+}
+
 Json factsOf(const engine::Device& device) {
     VkPhysicalDeviceProperties properties;
     device.instanceFunctions().vkGetPhysicalDeviceProperties(device.physical(), &properties);
-    return {{"name", device.name()},
+    return {{"index", indexOf(device)},
+            {"name", device.name()},
             {"driver", device.driver()},
             {"is_cpu", device.isCpu()},
             {"vulkan", versionOf(properties.apiVersion)},

@@ -128,22 +128,30 @@ Json idleLine(bool breaks, const cli::SimulationReport& report) {
 void fingerprintModels(engine::Device& device, const Kit& kit) {
     auto fracture = brittle::Fracture::create(device);
     if (!fracture) return print({{"error", fracture.error().message}});
+    print({{"of", kit.models().size() * std::size(kSiteCounts)}});
     for (const auto& [name, path] : kit.models())
         fingerprintModel(**fracture, name, path);
 }
 
 void simulateScenes(engine::Device& device, const Kit& kit, double seconds, bool once) {
-    for (const std::string& name : sceneNames(kit)) {
+    std::vector<std::string> names = sceneNames(kit);
+    std::erase_if(names, [](const std::string& name) {
         const auto scene = cli::readSceneOrBuiltin(name);
-        if (!scene)
-            print({{"scene", name}, {"error", scene.error().message}});
-        else if (scene->bodies.size() <= kMostBodies)
+        return scene && scene->bodies.size() > kMostBodies;
+    });
+    print({{"of", names.size()}});
+    for (const std::string& name : names) {
+        const auto scene = cli::readSceneOrBuiltin(name);
+        if (scene)
             print(sceneLine(device, name, *scene, seconds, once));
+        else
+            print({{"scene", name}, {"error", scene.error().message}});
     }
 }
 
 void measureIdleSteps(engine::Device& device, const Kit& kit) {
     const std::string name = kit.example("quiet_shelf").string();
+    print({{"of", 2}});
     for (const bool breaks : {true, false}) {
         auto scene = cli::readSceneOrBuiltin(name);
         if (!scene) return print({{"error", scene.error().message}});

@@ -1,5 +1,5 @@
 // Work of a check that runs in a process of its own. Each function prints one JSON object per line as soon as it is known, so
-// that nothing is lost if the process is ended.
+// that nothing is lost if the process is ended. The first line is {"of": how many others there are in all}.
 #pragma once
 
 #include "tools/device_check/kit.h"

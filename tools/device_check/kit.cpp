@@ -1,5 +1,7 @@
 #include "tools/device_check/kit.h"
 
+#include "tools/device_check/cached_start.h"
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -18,10 +20,9 @@ ChildCommand Kit::command(const std::string& program, const std::vector<std::str
     if (fs::exists(folder_ / "source"))
         command.environment = {"BRITTLE_TEST_SOURCE=" + (folder_ / "source").string(),
                                "BRITTLE_TEST_MODULES=" + (folder_ / "modules").string()};
-    // NVIDIA's driver keeps no cache for root unless a variable asks for it.
-    if (!scratch_.empty())
-        command.environment.insert(command.environment.end(),
-                                   {"__GL_SHADER_DISK_CACHE=1", "__GL_SHADER_DISK_CACHE_PATH=" + scratch_.string()});
+    if (!cache_.empty())
+        for (std::string& setting : cacheSettings(cache_))
+            command.environment.push_back(std::move(setting));
     if (!device_.empty()) command.environment.push_back("BRITTLE_DEVICE=" + device_);
     command.until = until;
     return command;
@@ -35,11 +36,7 @@ std::vector<std::pair<std::string, std::string>> Kit::models() const {
         std::istringstream words(line);
         std::string name, source;
         if (!(words >> name >> source) || name.starts_with('#')) continue;
-        const fs::path file = folder_ / "meshes" / source;
-        if (source.starts_with("builtin:"))
-            models.emplace_back(name, source);
-        else if (fs::exists(file))
-            models.emplace_back(name, file.string());
+        models.emplace_back(name, source.starts_with("builtin:") ? source : (folder_ / "meshes" / source).string());
     }
     return models;
 }
@@ -61,10 +58,17 @@ std::vector<std::string> Kit::scenes() const {
     return names;
 }
 
-Json Kit::expected() const {
+Json Kit::expected(std::string& problem) const {
     std::ifstream file(folder_ / "expected.json");
+    if (!file) problem = "expected.json is missing";
+    if (!file) return {};
     Json expected = Json::parse(file, nullptr, /*allow_exceptions=*/false);
-    return expected.is_discarded() ? Json() : expected;
+    const auto has = [&](const char* list) {
+        return expected.is_object() && expected.contains(list) && expected[list].is_array() && !expected[list].empty();
+    };
+    if (has("models") && has("scenes")) return expected;
+    problem = "expected.json is damaged";
+    return {};
 }
 
 } // namespace device_check

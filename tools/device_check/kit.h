@@ -24,10 +24,9 @@ using Json = nlohmann::ordered_json;
 class Kit {
 public:
     // `launcher`: words that go before each program's path, such as a dynamic loader and its options; may be empty.
-    // `scratch`: a folder for what drivers keep; may be empty.
-    Kit(std::filesystem::path folder, std::vector<std::string> launcher, std::string device, std::filesystem::path scratch = {})
-        : folder_(std::move(folder)), launcher_(std::move(launcher)), device_(std::move(device)), scratch_(std::move(scratch)) {
-    }
+    // `cache`: a folder for the compiled kernels that drivers keep; may be empty.
+    Kit(std::filesystem::path folder, std::vector<std::string> launcher, std::string device, std::filesystem::path cache = {})
+        : folder_(std::move(folder)), launcher_(std::move(launcher)), device_(std::move(device)), cache_(std::move(cache)) {}
 
     bool hasProgram(const std::string& name) const { return std::filesystem::exists(folder_ / "bin" / name); }
     // A program of bin/ with these arguments, on the device that was asked for.
@@ -37,20 +36,20 @@ public:
     // The folder of the example scenes, and one of them by its name.
     std::filesystem::path examples() const { return folder_ / "source/modules/brittle/scene/examples"; }
     std::filesystem::path example(const std::string& scene) const { return examples() / (scene + ".toml"); }
-    // Names of the models in meshes.txt, and their paths or builtin:NAME. Files that were not packed are left out.
+    // Names of the models in meshes.txt, and their paths or builtin:NAME. Files may be missing.
     std::vector<std::pair<std::string, std::string>> models() const;
     // Recordings of motion on a known device, SCENE.motion (brittle compare --record).
     std::vector<std::filesystem::path> recordings() const;
     // Names in scenes.txt, one per line; empty if there is no such file: all scenes.
     std::vector<std::string> scenes() const;
-    // Returns the outcome on a known device, or null if the file is missing or damaged.
-    Json expected() const;
+    // Returns the outcome on a known device. If the file is missing or damaged, returns null and says so in `problem`.
+    Json expected(std::string& problem) const;
 
 private:
     std::filesystem::path folder_;
     std::vector<std::string> launcher_;
     std::string device_;
-    std::filesystem::path scratch_;
+    std::filesystem::path cache_;
 };
 
 } // namespace device_check

@@ -1,6 +1,6 @@
 #include "tools/device_check/results.h"
 
-#include "modules/brittle/export/output_file.h"
+#include "tools/brittle/interrupt.h"
 
 #include <cstdio>
 
@@ -8,11 +8,13 @@ namespace device_check {
 namespace {
 
 bool writeFile(const std::filesystem::path& path, const std::string& text, bool& told) {
-    auto file = brittle::OutputFile::create(path);
+    auto file = cli::createOutput(path);
     engine::Result<void> done = file ? file->write(text) : engine::Result<void>(file.error());
     if (done) done = file->commit();
     if (done) return true;
-    if (!told) std::fprintf(stderr, "brittle: %s; the earlier file stays\n", done.error().message.c_str());
+    std::error_code unknown;
+    const char* earlier = std::filesystem::exists(path, unknown) ? "; the earlier file stays" : "";
+    if (!told) std::fprintf(stderr, "brittle: %s%s\n", done.error().message.c_str(), earlier);
     told = true;
     return false;
 }
@@ -26,14 +28,42 @@ void Results::add(const std::string& name, const Json& outcome) {
 
 std::string textOf(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
 
-// Paths are hidden in the text, where they stand in messages of all kinds.
-std::string Results::shown(int indent) const {
-    std::string text = textOf(json_, indent);
+// Paths stand in messages of all kinds. They are replaced before JSON changes quotes and backslashes in them.
+void Results::hidePaths(Json& json) const {
+    if (json.is_structured())
+        for (Json& member : json)
+            hidePaths(member);
+    if (!json.is_string()) return;
+    auto& text = json.get_ref<std::string&>();
     for (const auto& [path, word] : hidden_)
         for (size_t at = path.empty() ? std::string::npos : text.find(path); at != std::string::npos;
              at = text.find(path, at + word.size()))
             text.replace(at, path.size(), word);
-    return text;
+}
+
+std::string Results::shown(int indent) const {
+    Json json = json_;
+    hidePaths(json);
+    return textOf(json, indent);
+}
+
+// A file is copied, not moved: if the new one cannot be written, the earlier one is still there.
+engine::Result<std::vector<std::string>> Results::keepEarlier() {
+    std::vector<std::string> kept;
+    for (const char* name : {"results.json", "results.html"}) {
+        std::error_code failed;
+        if (!std::filesystem::exists(folder_ / name, failed)) continue;
+        int number = 1;
+        while (std::filesystem::exists(folder_ / (name + ("." + std::to_string(number))), failed))
+            ++number;
+        const std::string copy = name + ("." + std::to_string(number));
+        if (!std::filesystem::copy_file(folder_ / name, folder_ / copy, failed))
+            return engine::Error{engine::ErrorCode::BadInput, (folder_ / name).string() +
+                                                                  ": is of an earlier check and cannot be kept (" +
+                                                                  failed.message() + "); give another folder with -o"};
+        kept.push_back(copy);
+    }
+    return kept;
 }
 
 void Results::write() {

@@ -1,6 +1,7 @@
 // Keeps the findings of a check in two files: results.json for programs, results.html for people.
 #pragma once
 
+#include "engine/result.h"
 #include "tools/device_check/kit.h"
 
 #include <filesystem>
@@ -26,7 +27,12 @@ public:
     bool wasWritten() const { return written_; }
     const std::filesystem::path& folder() const { return folder_; }
 
+    // Copies the files of an earlier check to names with the next free number, results.json.1. Returns these names.
+    // Errors: BadInput if a copy cannot be written.
+    engine::Result<std::vector<std::string>> keepEarlier();
+
 private:
+    void hidePaths(Json& json) const;
     std::string shown(int indent) const;
 
     std::filesystem::path folder_;
@@ -36,7 +42,7 @@ private:
     bool told_json_ = false, told_page_ = false;
 };
 
-// As text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character, are
+// Returns JSON text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character, are
 // replaced.
 std::string textOf(const Json& json, int indent = -1);
 

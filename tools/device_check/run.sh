@@ -5,14 +5,50 @@
 set -u
 
 complain() { echo "run.sh: $*" >&2; }
-kit=${0%/*}
-[ "$kit" != "$0" ] || kit=.
+give_up() {
+  code=$1
+  shift
+  complain "$*"
+  exit "$code"
+}
+script=$0
+[ ! -L "$script" ] || script=$(readlink -f -- "$script") || give_up 2 "the link $0 cannot be followed; run the script in its own folder"
+kit=${script%/*}
+[ "$kit" != "$script" ] || kit=.
 kit=$(CDPATH='' cd -- "$kit" && pwd) || exit 2
-if [ ! -x "$kit/busybox" ] || [ ! -f "$kit/programs.tar.xz" ]; then
-  complain "busybox or programs.tar.xz is missing in $kit; run the script in its own folder, not through a link"
-  exit 2
-fi
 box() { "$kit/busybox" "$@"; }
+
+# Says why the files of this folder cannot be used, if they cannot.
+check_files() {
+  for file in busybox programs.tar.xz; do
+    [ -e "$kit/$file" ] || give_up 2 "$file is missing in $kit; copy the whole folder again"
+    [ -r "$kit/$file" ] || give_up 2 "$kit/$file cannot be read by this user"
+  done
+  ! box true 2>/dev/null || return 0
+  [ -x "$kit/busybox" ] || give_up 2 "$kit/busybox may not be executed; try chmod +x, or copy the folder to a disk that is not mounted noexec"
+  give_up 4 "$kit/busybox does not run here; the programs are for x86-64 Linux, and this machine is $(uname -m 2>/dev/null || echo unknown)"
+}
+
+# Leaves no half unpacked folder, and no program that goes on unpacking.
+new= worker=
+clean_up() {
+  [ -z "$worker" ] || kill "$worker" 2>/dev/null && wait "$worker" 2>/dev/null
+  [ -z "$new" ] || box rm -rf "$new"
+}
+trap clean_up EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+# Unpacks to $new. The file `complete` is written last: a folder without it is not used.
+unpack_new() {
+  box tar -xJf "$kit/programs.tar.xz" -C "$new" &
+  worker=$!
+  wait "$worker" && [ -f "$new/bin/brittle" ] && echo complete >"$new/complete"
+  unpacked=$?
+  worker=
+  return $unpacked
+}
 
 # Unpacks the programs once: beside this script, or if that cannot be written to, in a folder for temporary files. Of several
 # that unpack at a time, the first puts its folder in place. A folder of another user is not used.
@@ -22,18 +58,22 @@ unpack() {
     programs=$folder/unpacked-$name
     ! is_usable || return 0
     box mkdir -p "$programs.new.$$" 2>/dev/null || continue
+    new=$programs.new.$$
     complain "unpacking to $programs"
-    if box tar -xJf "$kit/programs.tar.xz" -C "$programs.new.$$"; then
-      [ -e "$programs" ] || box mv "$programs.new.$$" "$programs" 2>/dev/null
+    if unpack_new; then
+      ! is_ours || is_usable || box rm -rf "$programs"
+      [ -e "$programs" ] || box mv "$new" "$programs" 2>/dev/null
     fi
-    box rm -rf "$programs.new.$$"
+    box rm -rf "$new"
+    new=
     ! is_usable || return 0
   done
-  complain "the programs cannot be unpacked: programs.tar.xz is damaged, or there are no 110 MB in $kit or ${TMPDIR:-/tmp}"
-  exit 2
+  box xzcat "$kit/programs.tar.xz" >/dev/null 2>&1 || give_up 2 "$kit/programs.tar.xz is damaged; copy the folder again"
+  give_up 2 "the programs cannot be unpacked: there are no 110 MB in $kit or ${TMPDIR:-/tmp}, or the folders cannot be written to"
 }
 
-is_usable() { [ -f "$programs/bin/brittle" ] && { [ "$folder" = "$kit" ] || [ -O "$programs" ]; }; }
+is_ours() { [ "$folder" = "$kit" ] || [ -O "$programs" ]; }
+is_usable() { [ -f "$programs/complete" ] && [ -f "$programs/bin/brittle" ] && is_ours; }
 
 # 236 of glibc 2.36; 0 if there is no version.
 as_number() {
@@ -73,15 +113,29 @@ choose_libraries() {
   fi
 }
 
-# Runs `brittle` with the libraries in $1.
+# Runs `brittle` with the libraries in $1. With `in_place=exec` it takes the place of this shell, and signals reach it.
+in_place=
 brittle() {
   path=$1
   shift
   if [ -n "$loader" ]; then
-    "$loader" --library-path "$path:$machine_libraries" "$programs/bin/brittle" "$@"
+    $in_place "$loader" --library-path "$path:$machine_libraries" "$programs/bin/brittle" "$@"
   else
-    LD_LIBRARY_PATH=$path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$programs/bin/brittle" "$@"
+    $in_place "$kit/busybox" env LD_LIBRARY_PATH="$path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$programs/bin/brittle" "$@"
   fi
+}
+
+# Sets `device` to what --device says, and `helps` if only help is wanted.
+read_options() {
+  device= helps=false before=
+  for word in "$@"; do
+    [ "$before" != --device ] || device=$word
+    case $word in
+      --device=*) device=${word#*=} ;;
+      -h | --help) helps=true ;;
+    esac
+    before=$word
+  done
 }
 
 # Sets `chosen` to libraries with which a GPU is found, else with which any device is. The machine's own loader comes first.
@@ -95,7 +149,7 @@ find_device() {
       [ -f $manifest ] && [ -z "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] || continue
       export VK_DRIVER_FILES=$manifest VK_ICD_FILENAMES=$manifest
     fi
-    said=$(brittle "$libraries_now" devices 2>&1)
+    said=$(brittle "$libraries_now" devices ${device:+--device "$device"} 2>&1)
     line=$(echo "$said" | box grep ': chosen')
     case $line in
       "") ;;
@@ -107,19 +161,36 @@ find_device() {
   [ -n "$chosen" ]
 }
 
-[ "$(box uname -m)" = x86_64 ] || { complain "the programs are for x86-64, this machine is $(box uname -m)"; exit 4; }
-unpack
-choose_libraries
-if ! find_device; then
-  complain "no Vulkan device can be used: $said"
+# Says why there is no device, and what to do about it.
+explain_no_device() {
+  reason=$(echo "$said" | box sed -n 's/^brittle: //p' | box tail -n 1)
+  : "${reason:=$said}"
+  case $reason in
+    *BRITTLE_DEVICE_WITHOUT*) give_up 2 "$reason" ;;
+    *"this machine has no Vulkan device"*) ;;
+    *"no usable device matches"*) give_up 4 "$reason; --device or BRITTLE_DEVICE asks for this device" ;;
+  esac
+  complain "no Vulkan device can be used: $reason"
   manifests=${VK_DRIVER_FILES:-${VK_ICD_FILENAMES:-}}
   [ -z "$manifests" ] || complain "drivers are taken from $manifests alone, because VK_DRIVER_FILES or VK_ICD_FILENAMES says so"
-  complain "install this GPU's Vulkan driver; drivers are listed in /usr/share/vulkan/icd.d or \$VK_DRIVER_FILES"
-  exit 4
+  give_up 4 "install this GPU's Vulkan driver; drivers are listed in /usr/share/vulkan/icd.d or \$VK_DRIVER_FILES"
+}
+
+check_files
+[ "$(box uname -m)" = x86_64 ] || give_up 4 "the programs are for x86-64, this machine is $(box uname -m)"
+read_options "$@"
+unpack
+choose_libraries
+if $helps; then
+  chosen=$libraries
+elif find_device; then
+  echo "device: $found"
+else
+  explain_no_device
 fi
-echo "device: $found"
 output=$kit
 [ -w "$kit" ] || output=.
+in_place=exec
 if [ -n "$loader" ]; then
   brittle "$chosen" check-device --kit "$programs" -o "$output" --loader "$loader" --library-path "$chosen:$machine_libraries" "$@"
 else

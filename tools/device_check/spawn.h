@@ -14,4 +14,12 @@ namespace device_check {
 int spawnProgram(std::vector<std::string> words, const std::vector<std::string>& settings,
                  const posix_spawn_file_actions_t& files, const posix_spawnattr_t* attributes, pid_t& pid);
 
+struct ChildStreams {
+    int output, errors; // descriptors that the program gets as standard output and standard error
+};
+
+// Starts a program in a process group of its own, with default signals and an empty standard input. The kernel ends it if the
+// calling thread ends, so that nothing goes on after SIGKILL to this process. Otherwise as spawnProgram.
+int spawnFollower(std::vector<std::string> words, const std::vector<std::string>& settings, ChildStreams streams, pid_t& pid);
+
 } // namespace device_check

@@ -43,18 +43,27 @@ void merge(Json& outcome, const TestRun& run) {
         outcome["status"] = status;
 }
 
+void addText(Json& outcome, const std::string& text) {
+    outcome["reason"] = outcome.contains("reason") ? outcome["reason"].get<std::string>() + "; " + text : text;
+}
+
+// Names what failed, what did not run and what was not even listed. Tests that are not listed are not in `of`.
 void addReason(Json& outcome) {
-    size_t failed = 0, left = 0;
+    size_t failed = 0, left = 0, of = 0;
+    std::string unlisted;
     for (const auto& [name, run] : outcome["programs"].items()) {
-        failed += run["findings"].size() + (run.contains("problem") ? 1 : 0);
+        failed += run["findings"].size();
         left += run["not run"].get<size_t>();
+        of += run["tests"].get<size_t>();
+        if (!run["listed"].get<bool>() && !run.contains("problem")) unlisted += (unlisted.empty() ? "" : ", ") + name;
     }
-    if (failed > 0)
-        outcome["reason"] = std::to_string(failed) + " tests failed";
-    else if (left > 0)
-        outcome["reason"] = std::to_string(left) + " tests did not run in the time";
-    else if (outcome["status"] != "passed")
-        outcome["reason"] = "there was no time to list the tests";
+    outcome["done"] = of - left;
+    outcome["of"] = of;
+    if (failed > 0) addText(outcome, std::to_string(failed) + " tests failed");
+    for (const auto& [name, run] : outcome["programs"].items())
+        if (run.contains("problem")) addText(outcome, run["problem"].get<std::string>());
+    if (left > 0) addText(outcome, std::to_string(of - left) + " of " + std::to_string(of) + " tests were run in the time");
+    if (!unlisted.empty()) addText(outcome, "there was no time to list the tests of " + unlisted);
 }
 
 struct Program {
@@ -68,7 +77,6 @@ Json runPrograms(const PartContext& context, const std::string& part, std::initi
     Json outcome;
     outcome["programs"] = Json::object();
     for (const Program& program : programs) {
-        if (!context.kit.hasProgram(program.file)) continue;
         TestRunOptions options = optionsFor(context, program.file, program.filter);
         options.environment.insert(options.environment.end(), environment.begin(), environment.end());
         TestRun& run = context.test_runs[part + "/" + program.name];
@@ -76,7 +84,6 @@ Json runPrograms(const PartContext& context, const std::string& part, std::initi
         outcome["programs"][program.name] = toJson(run);
         merge(outcome, run);
     }
-    if (outcome["programs"].empty()) return {{"status", "skipped"}, {"reason", "the folder has no test programs"}};
     addReason(outcome);
     return outcome;
 }

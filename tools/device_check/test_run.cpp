@@ -144,6 +144,10 @@ bool TestRun::isGood() const {
 }
 
 void runTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
+    if (!kit.hasProgram(options.program)) {
+        run.problem = "the tests of " + options.program + " cannot be listed: the program is missing";
+        return;
+    }
     if (run.tests.empty()) listTests(kit, options, run);
     std::vector<std::vector<TestOutcome*>> shares(std::max(1u, options.processes));
     size_t next = 0;
@@ -156,6 +160,7 @@ void runTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
 
 Json toJson(const TestRun& run) {
     Json json = {{"tests", run.tests.size()}};
+    json["listed"] = !run.tests.empty();
     for (const TestEnd end :
          {TestEnd::Passed, TestEnd::Skipped, TestEnd::Failed, TestEnd::Crashed, TestEnd::Hung, TestEnd::NotRun})
         json[nameOf(end)] = run.count(end);

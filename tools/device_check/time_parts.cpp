@@ -59,15 +59,22 @@ Json startOf(const PartContext& context, const std::vector<std::string>& argumen
     return times;
 }
 
-// Failed if something gave an error; stopped if the time of all that gave none ran out.
-void judge(Json& outcome, const Json& list) {
-    outcome["status"] = "passed";
+// Failed if something gave an error; stopped if the time of all that gave none ran out. The reason names each.
+void judge(Json& outcome, const Json& list, const std::string& things) {
+    bool failed = false;
+    size_t done = list.size();
+    std::string names;
     for (const auto& [name, entry] : list.items()) {
         if (!entry.contains("error")) continue;
-        const bool late = entry.value("out_of_time", false);
-        if (!late || outcome["status"] == "passed") outcome["status"] = late ? "stopped" : "failed";
-        if (!late || !outcome.contains("reason")) outcome["reason"] = name + ": " + entry["error"].get<std::string>();
+        --done;
+        failed = failed || !entry.value("out_of_time", false);
+        names += (names.empty() ? "" : "; ") + name + ": " + entry["error"].get<std::string>();
     }
+    outcome["status"] = names.empty() ? "passed" : failed ? "failed" : "stopped";
+    outcome["done"] = done;
+    outcome["of"] = list.size();
+    if (!names.empty())
+        outcome["reason"] = std::to_string(done) + " of " + std::to_string(list.size()) + " " + things + " were done; " + names;
 }
 
 } // namespace
@@ -78,7 +85,7 @@ Json measureBench(const PartContext& context) {
         runs[run.name] = Clock::now() < context.until
                              ? runBench(context, run)
                              : Json{{"error", "not begun: the part's time was over"}, {"out_of_time", true}};
-    judge(outcome, runs);
+    judge(outcome, runs, "runs");
     outcome["runs"] = std::move(runs);
     return outcome;
 }
@@ -92,7 +99,7 @@ Json measureStart(const PartContext& context) {
     if (std::filesystem::exists(scene))
         starts["window_pane"] =
             startOf(context, {"simulate", scene.string(), "--seconds", "0.1", "--state-hash"}, context.folder / "cache-scene");
-    judge(outcome, starts);
+    judge(outcome, starts, "starts");
     outcome["starts"] = std::move(starts);
     return outcome;
 }

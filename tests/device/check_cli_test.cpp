@@ -1,0 +1,122 @@
+// brittle check-device on folders that lack most of a kit.
+#include "tests/support/folder_test.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+namespace device_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using support::Outcome;
+
+// A kit with brittle and a test program that hangs (fake_tests.sh). Its name has characters that JSON writes in another way.
+class CheckCli : public support::FolderTest {
+protected:
+    void SetUp() override {
+        FolderTest::SetUp();
+        fs::create_directories(kit() / "bin");
+        fs::create_symlink(std::string(BRITTLE_BINARY_DIR) + "/brittle", kit() / "bin/brittle");
+    }
+    void addTests(const std::string& name) const {
+        fs::copy_file(fs::path(BRITTLE_SOURCE_DIR) / "tests/device/fake_tests.sh", kit() / "bin" / name);
+    }
+    fs::path kit() const { return folder() / "a \"kit\" \\ here"; }
+    std::vector<std::string> arguments(const std::vector<std::string>& options) const {
+        std::vector<std::string> all = {"check-device", "--kit", kit().string(), "-o", path("out")};
+        all.insert(all.end(), options.begin(), options.end());
+        return all;
+    }
+    Outcome check(const std::vector<std::string>& options) const { return support::runProgram("brittle", arguments(options)); }
+    Json results(const std::string& name = "results.json") const {
+        return Json::parse(support::fileBytes(path("out/" + name)), nullptr, /*allow_exceptions=*/false);
+    }
+    bool hasScratch() const {
+        for (const auto& entry : fs::directory_iterator(path("out")))
+            if (entry.path().filename().string().starts_with("scratch-")) return true;
+        return false;
+    }
+};
+
+TEST_F(CheckCli, FailsAndSaysWhatIsMissing) {
+    const Outcome run = check({"--parts", "kernels", "models", "motion"});
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    const Json parts = results()["parts"];
+    EXPECT_EQ(parts["kernels"]["status"], "failed");
+    EXPECT_EQ(parts["kernels"]["reason"], "the tests of brittle_tests_kernel cannot be listed: the program is missing");
+    EXPECT_EQ(parts["models"]["reason"], "nothing was compared: expected.json is missing");
+    EXPECT_EQ(parts["motion"]["reason"], "nothing was compared: recordings are missing");
+    EXPECT_EQ(results()["ended"], true);
+    std::ofstream(kit() / "expected.json") << "{\"models\": [";
+    EXPECT_EQ(check({"--parts", "models"}).exit_code, 1);
+    EXPECT_EQ(results()["parts"]["models"]["reason"], "nothing was compared: expected.json is damaged");
+}
+
+TEST_F(CheckCli, HidesTheFolderWhateverItsName) {
+    fs::create_directories(kit() / "recordings");
+    std::ofstream(kit() / "recordings/stack_10.motion") << "no motion";
+    EXPECT_EQ(check({"--parts", "motion"}).exit_code, 1);
+    const std::string reason = results()["parts"]["motion"]["reason"];
+    EXPECT_NE(reason.find("KIT/recordings/stack_10.motion: is no recorded motion"), std::string::npos) << reason;
+}
+
+TEST_F(CheckCli, KeepsEarlierResults) {
+    EXPECT_EQ(check({"--parts", "motion"}).exit_code, 1);
+    EXPECT_EQ(check({"--parts", "motion", "--device", "no such card"}).exit_code, 4);
+    EXPECT_TRUE(results()["parts"].contains("motion"));
+    EXPECT_FALSE(fs::exists(path("out/results.json.1")));
+    const Outcome run = check({"--parts", "models"});
+    EXPECT_NE(run.out.find("are now in results.json.1 and results.html.1"), std::string::npos) << run.out;
+    EXPECT_TRUE(results("results.json.1")["parts"].contains("motion"));
+    EXPECT_FALSE(results()["parts"].contains("motion"));
+}
+
+TEST_F(CheckCli, LeavesSoundResultsAndNoFolderWhenInterrupted) {
+    addTests("brittle_tests_kernel");
+    support::RunningProgram run("brittle", arguments({"--parts", "motion", "kernels"}));
+    for (int k = 0; k < 600 && !(fs::exists(path("out/results.json")) && results()["parts"].contains("device")); ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_TRUE(hasScratch());
+    run.interrupt();
+    EXPECT_EQ(run.wait().exit_code, -1); // ended by the signal
+    EXPECT_FALSE(hasScratch());
+    EXPECT_EQ(results()["ended"], false);
+    EXPECT_TRUE(results()["parts"].contains("device"));
+}
+
+TEST_F(CheckCli, NamesTheTestsThatWereNotReached) {
+    addTests("brittle_tests_kernel");
+    const Outcome run = check({"--parts", "kernels", "--limit-scale", "0.05"});
+    const Json part = results()["parts"]["kernels"];
+    EXPECT_EQ(part["of"], 5) << part;
+    EXPECT_LT(part["done"], 5) << part;
+    EXPECT_NE(run.out.find("These parts were not checked, or not wholly: kernels"), std::string::npos) << run.out;
+}
+
+// A copy of a driver is a second device of the same name.
+TEST_F(CheckCli, TellsTwoDevicesOfOneNameApart) {
+    const fs::path manifest = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", driver = path("libvulkan_lvp2.so");
+    const Json known = Json::parse(support::fileBytes(manifest.string()), nullptr, /*allow_exceptions=*/false);
+    if (!known.is_object()) GTEST_SKIP() << "Mesa's lavapipe is not installed";
+    Json second = known;
+    fs::copy_file(known["ICD"]["library_path"].get<std::string>(), driver);
+    second["ICD"]["library_path"] = driver.string();
+    std::ofstream(path("second.json")) << second;
+    const std::string both = manifest.string() + ":" + path("second.json");
+    const Outcome run = support::runProgram("brittle", {"devices", "--device", "1", "--json"},
+                                            {"VK_DRIVER_FILES=" + both, "VK_ICD_FILENAMES=" + both});
+    const Json devices = Json::parse(run.out, nullptr, /*allow_exceptions=*/false);
+    ASSERT_EQ(devices.size(), 2u) << run.out << run.err;
+    EXPECT_EQ(devices[0]["name"], devices[1]["name"]);
+    EXPECT_EQ(devices[0]["chosen"], false);
+    EXPECT_EQ(devices[1]["chosen"], true);
+}
+
+} // namespace
+} // namespace device_test
