@@ -83,6 +83,7 @@ constexpr SceneCase kCases[] = {
     {"hard_35_placed_1000", heavyStands},
     {"hard_36_slide_tiles_slow", keepsItsSpeed},
     {"hard_36_slide_tiles", keepsItsSpeed},
+    {"hard_36_slide_tiles_1m_s", keepsItsSpeed},
     {"hard_36_slide_tiles_fast", keepsItsSpeed},
     {"hard_36_slide_tiles_1cm", keepsItsSpeed},
     {"hard_36_slide_steps", keepsItsSpeed},

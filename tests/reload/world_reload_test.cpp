@@ -13,8 +13,6 @@ using brittle::World;
 
 namespace {
 
-std::unique_ptr<World> worldOf(const brittle::SceneDescription& scene) { return breaking_scenes::worldOf(scene); }
-
 brittle::SceneDescription builtin(const std::string& name) {
     auto scene = brittle::makeBuiltinScene(name);
     EXPECT_TRUE(scene) << scene.error().message;
@@ -53,7 +51,12 @@ protected:
     }
     void TearDown() override {
         following_.reset();
+        worlds_.clear();
         SourceFolder::TearDown();
+    }
+    // nullptr if it cannot be made. The fixture owns it, because it has to outlive what follows it.
+    World* worldOf(const brittle::SceneDescription& scene) {
+        return worlds_.emplace_back(breaking_scenes::worldOf(scene)).get();
     }
     void follow(World& world) {
         auto started = ShaderReloader::start(engine_test::device(), {.folder = folder()});
@@ -109,6 +112,7 @@ protected:
     }
 
 private:
+    std::vector<std::unique_ptr<World>> worlds_;
     std::optional<Following> following_;
 };
 

@@ -135,6 +135,7 @@ const std::vector<SceneEntry>& builtinScenes() {
         {"hard_35_placed_1000", heavyPlaced, 1000},
         {"hard_36_slide_tiles_slow", slider, 0},
         {"hard_36_slide_tiles", slider, 1},
+        {"hard_36_slide_tiles_1m_s", slider, 11},
         {"hard_36_slide_tiles_fast", slider, 2},
         {"hard_36_slide_tiles_1cm", slider, 3},
         {"hard_36_slide_steps", slider, 4},

@@ -33,7 +33,8 @@ constexpr std::array<Slide, kSliders> kSlides = {{{Floor::Tiles, 0.1, 1, 4},
                                                   {Floor::Sheet, 1, 1, 4},
                                                   {Floor::Sheet, 5, 1, 2},
                                                   {Floor::Plane, 5, 1, 2},
-                                                  {Floor::Tiles, 5, 1, 2, true}}};
+                                                  {Floor::Tiles, 5, 1, 2, true},
+                                                  {Floor::Tiles, 1, 1, 4}}};
 
 // Boxes side by side, their tops level, or off by a millionth of the cube that slides.
 void addTiles(SceneDescription& scene, const Slide& slide) {

@@ -5,7 +5,7 @@
 
 namespace brittle::library {
 
-constexpr uint32_t kSliders = 11;
+constexpr uint32_t kSliders = 12;
 
 SceneDescription spinningRods(uint32_t count);     // 12
 SceneDescription slider(uint32_t number);          // 36; below kSliders: a row of floors and speeds
