@@ -228,7 +228,7 @@ TEST_F(WorldReload, TellsTheTimeOfEachKernel) {
 
 // What runs under the validation layers and the sanitizers: a swap in a world's life.
 TEST(SmallWorldReload, PutsAnotherVersionInPlaceBetweenSteps) {
-    const auto world = worldOf(fallingBall()), alone = worldOf(fallingBall());
+    const auto world = breaking_scenes::worldOf(fallingBall()), alone = breaking_scenes::worldOf(fallingBall());
     ASSERT_TRUE(world && alone);
     run(*world, 3);
     const fs::path root = fs::path(BRITTLE_SOURCE_DIR) / "shaders-spirv";
