@@ -107,10 +107,18 @@ Json checkPrograms(const PartContext& context) {
 Json checkValidation(const PartContext& context) {
     const std::filesystem::path layer = context.kit.path("layer");
     if (!std::filesystem::exists(layer)) return {{"status", "skipped"}, {"reason", "the folder has no validation layer"}};
-    return runPrograms(context, "validation", {{"kernel", "brittle_tests_kernel", "Small*"}},
-                       {"VK_LAYER_PATH=" + layer.string(), "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation",
-                        "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:"
-                        "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT"});
+    // Loaders go on without a layer that they do not find. The tests of missing barriers notice that.
+    Json outcome =
+        runPrograms(context, "validation",
+                    {{"engine", "brittle_tests_engine", "Barriers.AreMiss*"}, {"kernel", "brittle_tests_kernel", "Small*"}},
+                    {"VK_LAYER_PATH=" + layer.string(), "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation",
+                     "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:"
+                     "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT"});
+    const Json& barriers = outcome["programs"]["engine"];
+    if (barriers["skipped"] == 0 && barriers["failed"] == 0) return outcome;
+    outcome["status"] = "failed";
+    outcome["reason"] = "the validation layer was not loaded, or it noticed no missing barrier; so nothing was validated";
+    return outcome;
 }
 
 } // namespace device_check
