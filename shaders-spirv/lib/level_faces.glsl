@@ -14,19 +14,18 @@
 const float kLeastTilt = 0.02, kMostTilt = 0.45; // rad
 const float kMuchLarger = 4.0;                   // of radii
 
+float radiusOfHull(bool of_a) { return of_a ? pair.hull[0].center.w : pair.hull[1].center.w; }
+
 uint facesOf(bool of_a) { return of_a ? pair.hull[0].count.y : pair.hull[1].count.y; }
 
 // rad. A body that falls freely about an edge tips by so much in a step.
 float tiltInStep() {
-    float radius = facing.a_leads ? pair.hull[1].center.w : pair.hull[0].center.w;
-    return min(0.5 * length(push.gravity.xyz) * push.step * push.step / radius, kMostTilt);
+    return min(0.5 * length(push.gravity.xyz) * push.step * push.step / radiusOfHull(!facing.a_leads), kMostTilt);
 }
 
 bool liesOnGround() {
     bool is_fixed = bodies[facing.a_leads ? pair.ids.z : pair.ids.w].offset.w == 0.0;
-    float below = facing.a_leads ? pair.hull[0].center.w : pair.hull[1].center.w;
-    float above = facing.a_leads ? pair.hull[1].center.w : pair.hull[0].center.w;
-    return is_fixed || below >= kMuchLarger * above;
+    return is_fixed || radiusOfHull(facing.a_leads) >= kMuchLarger * radiusOfHull(!facing.a_leads);
 }
 
 // How far a point lies beyond the side of the reference polygon that it passes furthest.
@@ -55,7 +54,7 @@ float outsideFace(bool of_a, uint face, vec2 at) {
     return outside;
 }
 
-// The face below the center of mass, of those that are level with the incident one. That one itself if there is none.
+// The face below the center of mass, of those that are level with the incident one. The incident face itself if no such face exists.
 uint faceBelowCenter(float tilt) {
     bool of_a = !facing.a_leads;
     vec2 center = inPlane(centerOfMass(pair, of_a ? 0u : 1u) + (of_a ? vec3(0.0) : found.shift.xyz)).xy;

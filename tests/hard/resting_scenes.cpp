@@ -29,7 +29,7 @@ void checkOverlaps(Trial& trial, const MeasuredScene& run, double nearly_all, do
     trial.check("deepest overlap", percentile(overlaps, 1), deepest, "m");
 }
 
-// rad, of what was vertical, if that is little.
+// rad. The small angle between the vertical axes of a body at two times.
 double tiltBetween(const gpu::vec4& first, const gpu::vec4& now) {
     const double x = -double{now.w} * first.x + double{now.x} * first.w - double{now.y} * first.z + double{now.z} * first.y,
                  z = -double{now.w} * first.z + double{now.z} * first.w - double{now.x} * first.y + double{now.y} * first.x;

@@ -26,7 +26,7 @@ constexpr std::array<Tall, kTallStacks> kTall = {{{8, 1, 9.81, 60},
                                                   {20, 10, 98.1, 60},
                                                   {4, 0.05, 98.1, 60}}};
 
-// Upright, with so many sides.
+// Corners of an upright prism with `sides` sides.
 std::vector<Double3> cylinder(double radius, double height, uint32_t sides) {
     std::vector<Double3> points;
     for (uint32_t k = 0; k < sides; ++k) {
