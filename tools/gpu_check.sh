@@ -21,7 +21,7 @@ misused() {
   exit 2
 }
 
-out=out/gpu-check build=true small=false
+out= build=true small=false
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help) usage; exit 0 ;;
@@ -31,7 +31,7 @@ while [ $# -gt 0 ]; do
     *) misused ;;
   esac
 done
-case $out in /* | out/gpu-check) ;; *) out=$called_in/$out ;; esac
+case $out in "") out=out/gpu-check ;; /*) ;; *) out=$called_in/$out ;; esac
 
 # Refuses a folder that holds anything but an earlier kit and the results of its runs: packing replaces files there.
 check_folder() {

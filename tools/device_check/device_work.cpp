@@ -134,14 +134,13 @@ void fingerprintModels(engine::Device& device, const Kit& kit) {
 }
 
 void simulateScenes(engine::Device& device, const Kit& kit, double seconds, bool once) {
-    std::vector<std::string> names = sceneNames(kit);
-    std::erase_if(names, [](const std::string& name) {
-        const auto scene = cli::readSceneOrBuiltin(name);
-        return scene && scene->bodies.size() > kMostBodies;
-    });
-    print({{"of", names.size()}});
-    for (const std::string& name : names) {
-        const auto scene = cli::readSceneOrBuiltin(name);
+    std::vector<std::pair<std::string, engine::Result<brittle::SceneDescription>>> scenes;
+    for (const std::string& name : sceneNames(kit)) {
+        auto scene = cli::readSceneOrBuiltin(name);
+        if (!scene || scene->bodies.size() <= kMostBodies) scenes.emplace_back(name, std::move(scene));
+    }
+    print({{"of", scenes.size()}});
+    for (const auto& [name, scene] : scenes) {
         if (scene)
             print(sceneLine(device, name, *scene, seconds, once));
         else
