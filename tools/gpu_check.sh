@@ -139,13 +139,13 @@ pack_sources() {
 }
 
 write_expected() {
-  say "expected fragments and scene states, on this machine's device"
-  "$bin/brittle" check-device --kit "$kit" --write-expected "$kit/expected.json"
+  say "motion, fragments and scene states, on this machine's device"
   local scene
   mkdir -p "$kit/recordings"
   for scene in stack_10 card_house hull_pile_100; do
     "$bin/brittle" compare --device 0 "$scene" --seconds 0.5 --record "$kit/recordings/$scene.motion" --passes-of 1 >/dev/null
   done
+  "$bin/brittle" check-device --kit "$kit" --write-expected "$kit/expected.json"
 }
 
 write_folder() {

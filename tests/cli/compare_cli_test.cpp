@@ -36,6 +36,24 @@ protected:
                                         << ", 0]\nspin = [1, 2, 3]\n[[collider]]\nname = \"ground\"\n";
         return path("box.toml");
     }
+    // A tetrahedron whose vertices lie in wedge.bin; `lean` moves one of them.
+    std::string sceneOfAWedge(float lean) const {
+        const float places[] = {0, 0, 0, 1, 0, 0, 0, 1 + lean, 0, 0, 0, 1};
+        const uint16_t corners[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+        std::ofstream buffer(path("wedge.bin"), std::ios::binary);
+        buffer.write(reinterpret_cast<const char*>(places), sizeof places);
+        buffer.write(reinterpret_cast<const char*>(corners), sizeof corners);
+        std::ofstream(path("wedge.gltf"))
+            << R"({"asset":{"version":"2.0"},"buffers":[{"uri":"wedge.bin","byteLength":72}],"bufferViews":[)"
+            << R"({"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],"accessors":[)"
+            << R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,)" << 1 + lean
+            << R"(,1]},{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],"meshes":[{"primitives":[)"
+            << R"({"attributes":{"POSITION":0},"indices":1}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
+        std::ofstream(path("wedge.toml"))
+            << "name = \"wedge\"\n[[body]]\nname = \"wedge\"\nshape = \"mesh\"\nfile = \"wedge.gltf\"\nsites = 1\n"
+               "place = [0, 2, 0]\n[[collider]]\nname = \"ground\"\n";
+        return path("wedge.toml");
+    }
     static json parsed(const Outcome& run) {
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return json::parse(run.out, nullptr, false);
@@ -161,6 +179,7 @@ TEST_F(CompareCli, RefusesADamagedRecording) {
     flipped[whole.size() / 2] ^= 1;
     expectDamaged(flipped, "its checksum is wrong");
     expectRefused({"--device", "0", fallingBox(), "--against", path("")}, 2, "is a folder");
+    expectRefused({"--device", "0", fallingBox(), "--against", "/dev/zero"}, 2, "is a folder, a pipe or a device");
     for (const char* list : {"steps", "passes"}) {
         write(file, whole);
         change(file, [list](json& recording) {
@@ -178,6 +197,22 @@ TEST_F(CompareCli, RefusesTheRecordingOfAChangedSceneOrGroupSize) {
     expectRefused({"--device", "0", fallingBox(), "--against", file, "--group-size", "128"}, 2, "workgroups of 64 lanes");
     expectRefused({"--device", "0", fallingBox(1.25), "--against", file}, 2, "another scene with the name \"box\"");
     EXPECT_EQ(compare({"--device", "0", fallingBox(), "--against", file, "--group-size", "64"}).exit_code, 0);
+}
+
+TEST_F(CompareCli, DoesNotWriteOverWhatItReads) {
+    const std::string scene = sceneOfAWedge(0);
+    for (const char* input : {"wedge.toml", "wedge.gltf", "wedge.bin"}) {
+        const std::string before = support::fileBytes(path(input));
+        expectRefused({"--device", "0", scene, "--record", path(input)}, 2, "would be overwritten");
+        EXPECT_EQ(support::fileBytes(path(input)), before) << input;
+    }
+}
+
+TEST_F(CompareCli, KnowsASceneByTheBuffersOfItsModels) {
+    const std::string file = path("wedge.motion");
+    ASSERT_EQ(compare({"--device", "0", sceneOfAWedge(0), "--steps", "2", "--record", file}).exit_code, 0);
+    EXPECT_EQ(compare({"--device", "0", sceneOfAWedge(0), "--against", file}).exit_code, 0);
+    expectRefused({"--device", "0", sceneOfAWedge(0.25F), "--against", file}, 2, "another scene with the name \"wedge\"");
 }
 
 TEST_F(CompareCli, RefusesOptionsThatWouldDoNothing) {

@@ -61,6 +61,7 @@ TEST_F(CheckCli, FailsAndSaysWhatIsMissing) {
 TEST_F(CheckCli, HidesTheFolderWhateverItsName) {
     fs::create_directories(kit() / "recordings");
     std::ofstream(kit() / "recordings/stack_10.motion") << "no motion";
+    std::ofstream(kit() / "expected.json") << R"({"models": [{}], "scenes": [{}]})";
     EXPECT_EQ(check({"--parts", "motion"}).exit_code, 1);
     const std::string reason = results()["parts"]["motion"]["reason"];
     EXPECT_NE(reason.find("KIT/recordings/stack_10.motion: is no recorded motion"), std::string::npos) << reason;
@@ -84,7 +85,9 @@ TEST_F(CheckCli, LeavesSoundResultsAndNoFolderWhenInterrupted) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     EXPECT_TRUE(hasScratch());
     run.interrupt();
-    EXPECT_EQ(run.wait().exit_code, -1); // ended by the signal
+    const Outcome ended = run.wait();
+    EXPECT_EQ(ended.exit_code, -1); // ended by the signal
+    EXPECT_NE(ended.err.find("interrupted; the results of the parts that have ended are in"), std::string::npos) << ended.err;
     EXPECT_FALSE(hasScratch());
     EXPECT_EQ(results()["ended"], false);
     EXPECT_TRUE(results()["parts"].contains("device"));
@@ -97,6 +100,63 @@ TEST_F(CheckCli, NamesTheTestsThatWereNotReached) {
     EXPECT_EQ(part["of"], 5) << part;
     EXPECT_LT(part["done"], 5) << part;
     EXPECT_NE(run.out.find("These parts were not checked, or not wholly: kernels"), std::string::npos) << run.out;
+}
+
+TEST_F(CheckCli, IsNotDoneIfAllTestsSkipThemselves) {
+    std::ofstream(kit() / "bin/brittle_tests_kernel")
+        << "#!/bin/sh\nprintf 'Fake.\\n  Skips\\n'\n"
+           "echo '[ RUN      ] Fake.Skips'; echo '[  SKIPPED ] Fake.Skips (0 ms)'\n";
+    fs::permissions(kit() / "bin/brittle_tests_kernel", fs::perms::owner_all);
+    const Outcome run = check({"--parts", "kernels"});
+    const Json part = results()["parts"]["kernels"];
+    EXPECT_EQ(part["status"], "skipped") << part;
+    EXPECT_EQ(part["done"], 0) << part;
+    EXPECT_NE(run.out.find("not wholly: kernels against their oracles (skipped)"), std::string::npos) << run.out;
+}
+
+TEST_F(CheckCli, NamesAProgramWhoseTestsAreUnknown) {
+    addTests("brittle_tests_engine");
+    const Outcome run = check({"--parts", "programs", "--limit-scale", "0.05"});
+    EXPECT_NE(run.out.find("2 programs with tests unknown"), std::string::npos) << run.out;
+}
+
+TEST_F(CheckCli, NoticesAListThatWasCutShort) {
+    std::ofstream(kit() / "meshes.txt") << "cube builtin:cube\n";
+    std::ofstream(kit() / "scenes.txt") << "stack_10\n";
+    fs::create_directories(kit() / "recordings");
+    std::ofstream(kit() / "recordings/house.motion");
+    EXPECT_EQ(check({"--write-expected", (kit() / "expected.json").string()}).exit_code, 0);
+    EXPECT_EQ(check({"--parts", "models", "scenes"}).exit_code, 0);
+    std::ofstream(kit() / "meshes.txt") << "";
+    std::ofstream(kit() / "scenes.txt") << "stack_10\nbounce\n";
+    fs::rename(kit() / "recordings/house.motion", kit() / "recordings/other.motion");
+    EXPECT_EQ(check({"--parts", "models", "scenes", "motion"}).exit_code, 1);
+    const Json parts = results()["parts"];
+    EXPECT_EQ(parts["models"]["reason"], "meshes.txt is missing");
+    EXPECT_EQ(parts["scenes"]["reason"], "the list of scenes gives 2 scenes, expected.json has 1; copy the folder again");
+    EXPECT_EQ(parts["motion"]["reason"], "recordings/house.motion is missing; copy the folder again");
+}
+
+TEST_F(CheckCli, DoesNotWriteWhereAnotherCheckDoes) {
+    addTests("brittle_tests_kernel");
+    support::RunningProgram first("brittle", arguments({"--parts", "kernels"}));
+    for (int k = 0; k < 600 && !(fs::exists(path("out")) && hasScratch()); ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const Outcome second = check({"--parts", "motion"});
+    EXPECT_EQ(second.exit_code, 2) << second.out;
+    EXPECT_NE(second.err.find("another check writes its results there now"), std::string::npos) << second.err;
+    first.interrupt();
+    first.wait();
+    EXPECT_EQ(check({"--parts", "motion"}).exit_code, 1);
+}
+
+TEST_F(CheckCli, RemovesWhatAKilledCheckLeftAndNothingElse) {
+    for (const char* name : {"out/scratch-AbCdEf", "out/scratch-thesis"})
+        fs::create_directories(path(name));
+    std::ofstream(path("out/scratch-AbCdEf/made_by_check_device"));
+    check({"--parts", "motion"});
+    EXPECT_FALSE(fs::exists(path("out/scratch-AbCdEf")));
+    EXPECT_TRUE(fs::exists(path("out/scratch-thesis")));
 }
 
 // A copy of a driver is a second device of the same name.

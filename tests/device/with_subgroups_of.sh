@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # with_subgroups_of.sh LANES PROGRAM [ARG...]: runs a program of the build on lavapipe with subgroups of LANES lanes. Fails if the
-# device does not have as many. Exit code 77: there is no lavapipe.
+# device does not have as many. Exit code 77: no device is lavapipe.
 #
 # Mesa 22.3 does not look at the width when it looks a kernel up in its cache on disk: with a shared cache a program would run
 # kernels that were compiled for another width. So each width has a cache of its own.
@@ -14,7 +14,10 @@ mkdir -p "$MESA_SHADER_CACHE_DIR"
 
 export BRITTLE_DEVICE=llvmpipe
 brittle=$(dirname "$1")/brittle
-"$brittle" devices >/dev/null 2>&1 || { echo "SKIPPED: there is no lavapipe"; exit 77; }
+code=0
+said=$("$brittle" devices 2>&1) || code=$?
+[ "$code" != 4 ] || { echo "SKIPPED: there is no lavapipe"; exit 77; }
+[ "$code" = 0 ] || { echo "FAILED: brittle devices ended with $code: $said" >&2; exit 1; }
 found=$("$brittle" check-device --work facts | sed -n 's/.*"subgroups":{"size":\([0-9]*\).*/\1/p')
 [ "$found" = "$lanes" ] || { echo "FAILED: the device has subgroups of ${found:-unknown} lanes, expected $lanes" >&2; exit 1; }
 exec "$@"

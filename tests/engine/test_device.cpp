@@ -111,9 +111,12 @@ void finish(engine::Commands& commands) {
 
 bool validationIsOn() { return environmentHas("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"); }
 
+bool synchronizationValidationIsWanted() {
+    return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
+}
+
 bool synchronizationValidationIsOn() {
-    return validationIsOn() && environmentHas("VK_LAYER_ENABLES", "ENABLE_SYNCHRONIZATION_VALIDATION_EXT") &&
-           isInstalled("VK_LAYER_KHRONOS_validation");
+    return synchronizationValidationIsWanted() && isInstalled("VK_LAYER_KHRONOS_validation");
 }
 
 } // namespace engine_test

@@ -35,8 +35,10 @@ std::vector<uint32_t> countingFrom(uint32_t first, size_t count);
 
 // Submits, waits, and fails the running test with the message where that goes wrong.
 void finish(engine::Commands& commands);
-// Whether the validation layers are listening, and how many of their messages the running test means to cause.
+// Whether the environment asks for validation, whether the layer is also there, and how many of its messages the running test
+// means to cause.
 bool validationIsOn();
+bool synchronizationValidationIsWanted();
 bool synchronizationValidationIsOn();
 void expectValidationMessages(uint32_t count);
 

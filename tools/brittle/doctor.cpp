@@ -6,7 +6,7 @@
 #include "tools/brittle/interrupt.h"
 #include "tools/brittle/model.h"
 #include "tools/brittle/progress.h"
-#include "tools/brittle/same_file.h"
+#include "tools/brittle/scene_files.h"
 
 #include <filesystem>
 #include <optional>
@@ -26,8 +26,7 @@ engine::Result<std::optional<brittle::OutputFile>> openOutput(const DoctorOption
         return engine::Error{engine::ErrorCode::BadInput, options.output + ": " + why};
     };
     if (!options.repair) return refuse("only a mended model is written; add --repair");
-    if (sameFile(options.output, options.model))
-        return refuse("is read as input and would be overwritten; write to another file");
+    if (auto apart = checkIsNoInput(options.output, filesOfModel(options.model)); !apart) return apart.error();
     // An ending that cannot be written is better known before the work.
     if (const auto known = brittle::encodeModel({}, std::filesystem::path(options.output).extension().string()); !known)
         return refuse(known.error().message);

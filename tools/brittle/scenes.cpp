@@ -5,7 +5,7 @@
 #include "modules/brittle/scene/scene_keys.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/interrupt.h"
-#include "tools/brittle/same_file.h"
+#include "tools/brittle/scene_files.h"
 #include "tools/brittle/scene_source.h"
 
 #include <nlohmann/json.hpp>
@@ -66,9 +66,7 @@ int showScene(const ScenesOptions& options) {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return kOk;
     }
-    if (sameFile(options.output, options.scene))
-        return fail({engine::ErrorCode::BadInput,
-                     options.output + ": is read as input and would be overwritten; write to another file"});
+    if (auto apart = checkIsNoInput(options.output, filesOfScene(options.scene, *scene)); !apart) return fail(apart.error());
     const auto written = write(options.output, text);
     return written ? kOk : fail(written.error());
 }

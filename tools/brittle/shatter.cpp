@@ -8,6 +8,7 @@
 #include "tools/brittle/picture.h"
 #include "tools/brittle/progress.h"
 #include "tools/brittle/same_file.h"
+#include "tools/brittle/scene_files.h"
 #include "tools/brittle/sites_file.h"
 
 #include <chrono>
@@ -108,10 +109,10 @@ engine::Result<void> Run::checkPathsApart() const {
     if (!of_colliders.empty() && options_.collider == 0)
         return refused(of_colliders, "there are no colliders to draw; ask for them, with --collider 26 say");
     if (sameFile(picture, of_colliders)) return refused(picture, "the two pictures need a file each");
+    std::vector<std::filesystem::path> inputs = filesOfModel(options_.model);
+    inputs.emplace_back(options_.sites_file);
     for (const std::string& output : {options_.output, picture, of_colliders})
-        for (const std::string& input : {options_.model, options_.sites_file})
-            if (sameFile(output, input))
-                return refused(output, "is read as input and would be overwritten; write to another file");
+        if (auto apart = checkIsNoInput(output, inputs); !apart) return apart.error();
     if (!options_.drop && !mayEndIn(options_.output, ".glb"))
         return refused(options_.output, "fragments are written as a GLB file; let its name end in .glb");
     for (const std::string& drawn : {picture, of_colliders})

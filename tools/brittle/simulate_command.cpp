@@ -3,7 +3,7 @@
 #include "tools/brittle/command.h"
 #include "tools/brittle/motion_output.h"
 #include "tools/brittle/progress.h"
-#include "tools/brittle/same_file.h"
+#include "tools/brittle/scene_files.h"
 #include "tools/brittle/scene_source.h"
 #include "tools/brittle/simulation.h"
 
@@ -34,25 +34,9 @@ struct SimulateOutcome {
     std::optional<AutoReport> picked; // where there was a wish
 };
 
-Result<void> checkOutputApart(const SimulateOptions& options, const brittle::SceneDescription& scene) {
-    const auto refused = [&] {
-        return Error{ErrorCode::BadInput,
-                     options.output + ": is read as input and would be overwritten; write to another file"};
-    };
-    const auto isRead = [&](const brittle::ShapeDescription& shape) {
-        return !shape.file.empty() && sameFile(options.output, (folderOf(options.scene) / shape.file).string());
-    };
-    if (sameFile(options.output, options.scene)) return refused();
-    for (const brittle::BodyDescription& body : scene.bodies)
-        if (isRead(body.shape)) return refused();
-    for (const brittle::ColliderDescription& collider : scene.colliders)
-        if (isRead(collider.shape)) return refused();
-    return {};
-}
-
 Result<std::unique_ptr<MotionOutput>> openOutput(const SimulateOptions& options, const brittle::SceneDescription& scene) {
     if (options.output.empty()) return std::unique_ptr<MotionOutput>();
-    if (auto apart = checkOutputApart(options, scene); !apart) return apart.error();
+    if (auto apart = checkIsNoInput(options.output, filesOfScene(options.scene, scene)); !apart) return apart.error();
     return MotionOutput::create(options.output, options.fps);
 }
 

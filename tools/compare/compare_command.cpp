@@ -3,6 +3,7 @@
 #include "tools/brittle/command.h"
 #include "tools/brittle/interrupt.h"
 #include "tools/brittle/progress.h"
+#include "tools/brittle/scene_files.h"
 #include "tools/brittle/scene_source.h"
 #include "tools/brittle/simulation.h"
 #include "tools/compare/compare_report.h"
@@ -95,6 +96,7 @@ uint32_t groupSizeOf(const CompareOptions& options) { return options.group_size 
 Result<Stage> setStage(const CompareOptions& options) {
     auto scene = readSceneOrBuiltin(options.scene);
     if (!scene) return scene.error();
+    if (auto apart = checkIsNoInput(options.record, filesOfScene(options.scene, *scene)); !apart) return apart.error();
     Stage stage;
     stage.scene_hash = compare::hashOfScene(*scene, folderOf(options.scene));
     auto device = openDevice(options.devices[0]);

@@ -170,8 +170,8 @@ Result<void> writeRecording(brittle::OutputFile& file, const MotionRecording& re
 
 Result<MotionRecording> readRecording(const std::filesystem::path& path) {
     std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown))
-        return refused(path, "is a folder; give a file that --record has written");
+    if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
+        return refused(path, "is a folder, a pipe or a device; give a file that --record has written");
     std::ifstream file(path, std::ios::binary);
     if (!file) return refused(path, "cannot be read; give a file that --record has written");
     const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};

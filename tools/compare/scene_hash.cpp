@@ -2,6 +2,7 @@
 
 #include "modules/brittle/mesh/byte_hash.h"
 #include "modules/brittle/scene/scene_file.h"
+#include "tools/brittle/scene_files.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -32,9 +33,10 @@ void addRounded(brittle::ByteHash& hash, const std::string& text) {
     }
 }
 
-void addModel(brittle::ByteHash& hash, const brittle::ShapeDescription& shape, const std::filesystem::path& folder) {
-    if (shape.file.empty()) return;
-    std::ifstream file(folder / shape.file, std::ios::binary);
+void addFile(brittle::ByteHash& hash, const std::filesystem::path& path) {
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(path, unknown)) return;
+    std::ifstream file(path, std::ios::binary);
     add(hash, std::string{std::istreambuf_iterator<char>(file), {}});
 }
 
@@ -46,10 +48,8 @@ uint64_t hashOfScene(brittle::SceneDescription scene, const std::filesystem::pat
     scene.step.steps = brittle::StepDescription{}.steps;
     brittle::ByteHash hash;
     addRounded(hash, brittle::writeScene(scene));
-    for (const brittle::BodyDescription& body : scene.bodies)
-        addModel(hash, body.shape, folder);
-    for (const brittle::ColliderDescription& collider : scene.colliders)
-        addModel(hash, collider.shape, folder);
+    for (const std::filesystem::path& file : cli::modelFilesOf(scene, folder))
+        addFile(hash, file);
     return hash.value();
 }
 

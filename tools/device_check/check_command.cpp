@@ -8,6 +8,7 @@
 #include "tools/device_check/check_summary.h"
 #include "tools/device_check/device_facts.h"
 #include "tools/device_check/device_work.h"
+#include "tools/device_check/output_folder.h"
 
 #include <algorithm>
 #include <csignal>
@@ -162,14 +163,6 @@ private:
     device_check::TestRuns test_runs_;
 };
 
-engine::Result<std::filesystem::path> scratchIn(const std::filesystem::path& folder) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    std::string name = (folder / "scratch-XXXXXX").string();
-    if (!failed && mkdtemp(name.data()) != nullptr) return std::filesystem::path(name);
-    return engine::Error{engine::ErrorCode::BadInput, folder.string() + ": cannot be written to; give another folder with -o"};
-}
-
 constexpr uint64_t kRoomForCache = 256 << 20; // bytes
 
 // The folder in which drivers keep compiled kernels, beside the results: a second check starts warm. None if the disk is nearly
@@ -198,16 +191,24 @@ void sayEnd(Results& results, int code) {
     if (!unchecked.empty()) std::printf("%s\n", unchecked.c_str());
 }
 
+// Ends an interrupted check.
+void leave(const std::filesystem::path& scratch, const std::filesystem::path& folder) {
+    device_check::endChildren();
+    std::error_code ignored;
+    std::filesystem::remove_all(scratch, ignored);
+    clearProgress();
+    std::fprintf(stderr, "brittle: interrupted; the results of the parts that have ended are in %s\n",
+                 (folder / "results.html").c_str());
+}
+
 int runCheck(const Options& options) {
     std::signal(SIGPIPE, SIG_IGN);
     const std::filesystem::path folder = options.output.empty() ? kitFolder(options) : std::filesystem::path(options.output);
-    const auto scratch = scratchIn(folder);
+    const auto lock = device_check::lockFolder(folder); // until the end
+    if (!lock) return fail(lock.error());
+    const auto scratch = device_check::makeScratch(folder);
     if (!scratch) return fail(scratch.error());
-    whenInterrupted([path = *scratch] {
-        device_check::endChildren();
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    });
+    whenInterrupted([path = *scratch, folder] { leave(path, folder); });
     Results results(folder, {{kitFolder(options).string(), "KIT"}, {scratch->string(), "SCRATCH"}});
     results.json() = {{"format", 1}, {"brittle", aboutProgram()}, {"ended", false}};
     const std::filesystem::path cache = cacheIn(folder, results.json()["compiled_kernels"]);
@@ -245,6 +246,9 @@ int writeExpected(const Options& options) {
         if (!lines) return fail(lines.error());
         expected[work] = std::move(*lines);
     }
+    expected["recordings"] = Json::array();
+    for (const std::filesystem::path& recording : Kit(kitFolder(options), {}, options.device).recordings())
+        expected["recordings"].push_back(recording.filename().string());
     auto file = createOutput(options.expect);
     if (!file) return fail(file.error());
     if (auto written = file->write(device_check::textOf(expected, 1) + "\n"); !written) return fail(written.error());

@@ -7,13 +7,18 @@ constexpr uint64_t kFullBelow = 1 << 20; // bytes
 
 std::string shareOf(const Json& part) {
     if (part["status"] == "skipped") return "skipped";
-    if (!part.contains("of") || part["of"] == 0) return "not reached";
-    return std::to_string(part["done"].get<size_t>()) + " of " + std::to_string(part["of"].get<size_t>());
+    const size_t unlisted = part.value("unlisted", size_t{0});
+    const std::string programs = unlisted == 0 ? "" : std::to_string(unlisted) + " programs with tests unknown";
+    if (!part.contains("of") || part["of"] == 0) return programs.empty() ? "not reached" : programs;
+    return std::to_string(part["done"].get<size_t>()) + " of " + std::to_string(part["of"].get<size_t>()) +
+           (programs.empty() ? "" : ", " + programs);
 }
 
+// A part without `of` has nothing to count: it is whole if it passed.
 bool isWhole(const Json& part) {
-    if (part["status"] == "passed") return true;
-    return part["status"] == "failed" && part.value("done", size_t{0}) == part.value("of", size_t{0});
+    if (part["status"] == "skipped" || part["status"] == "stopped" || part.value("unlisted", size_t{0}) > 0) return false;
+    if (!part.contains("of")) return part["status"] == "passed";
+    return part["of"] != 0 && part["done"] == part["of"];
 }
 
 } // namespace

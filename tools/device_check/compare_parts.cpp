@@ -114,7 +114,17 @@ private:
     std::string first_error_;
 };
 
-// Without expected results nothing can be compared: the part fails, and says so.
+// Says which file of the kit is missing or damaged, if one is. A list that was cut short is no longer as long as expected.json.
+std::string problemOfFolder(const PartContext& context, const Compared& compared, const Work& work) {
+    if (!context.expected.is_object()) return "nothing was compared: " + context.expected_problem;
+    if (work.of == 0 && work.end.isGood()) return std::string(compared.source) + " is missing";
+    const size_t expected = context.expected[compared.list].size();
+    if (work.of == 0 || work.of == expected) return "";
+    return std::string(compared.source) + " gives " + std::to_string(work.of) + " " + compared.things + ", expected.json has " +
+           std::to_string(expected) + "; copy the folder again";
+}
+
+// If the kit is damaged, the part fails and says so.
 template <class Fails>
 Json compare(const PartContext& context, const Compared& compared, Fails&& fails) {
     Work work = runWork(context, compared.list);
@@ -123,14 +133,21 @@ Json compare(const PartContext& context, const Compared& compared, Fails&& fails
         for (Json& line : work.lines)
             if (fails(line, expectedFor(context.expected, compared.list, line, compared.keys))) findings.add(line, compared);
     Json outcome = outcomeOf(work, findings.count(), findings.text(compared), compared.things);
-    if (work.of == 0 && work.end.isGood())
-        outcome = {{"status", "failed"}, {"reason", std::string(compared.source) + " is missing"}};
-    if (!context.expected.is_object()) {
+    if (const std::string problem = problemOfFolder(context, compared, work); !problem.empty()) {
         outcome["status"] = "failed";
-        outcome["reason"] = "nothing was compared: " + context.expected_problem;
+        outcome["reason"] = problem;
     }
     outcome[compared.list] = std::move(work.lines);
     return outcome;
+}
+
+// Names a recording that expected.json lists and the kit lacks.
+std::string problemOf(const std::vector<std::filesystem::path>& recordings, const PartContext& context) {
+    if (!context.expected.is_object()) return "nothing was compared: " + context.expected_problem;
+    for (const Json& name : context.expected.value("recordings", Json::array()))
+        if (std::ranges::none_of(recordings, [&](const auto& file) { return name == file.filename().string(); }))
+            return "recordings/" + name.get<std::string>() + " is missing; copy the folder again";
+    return "";
 }
 
 // Compares one scene's motion with a recording of it. Returns the report, or {"error", "out_of_time"}.
@@ -174,6 +191,8 @@ Json checkScenes(const PartContext& context) {
 Json compareMotion(const PartContext& context) {
     const std::vector<std::filesystem::path> recordings = context.kit.recordings();
     if (recordings.empty()) return {{"status", "failed"}, {"reason", "nothing was compared: recordings are missing"}};
+    if (const std::string problem = problemOf(recordings, context); !problem.empty())
+        return {{"status", "failed"}, {"reason", problem}};
     Json outcome = {{"status", "passed"}}, scenes = Json::array();
     for (const std::filesystem::path& recording : recordings) {
         Json report = compareWith(context, recording);

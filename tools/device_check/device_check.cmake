@@ -1,7 +1,7 @@
 # `brittle check-device`: checks a device by the project's own tests, expected fragments, scenes and times. Its page lies in the
 # program. How other programs are run and followed is a library of its own, for tests.
 set(check_dir ${CMAKE_CURRENT_LIST_DIR})
-set(check_running cached_start child_process kit spawn test_run)
+set(check_running cached_start child_process kit output_folder spawn test_run)
 list(TRANSFORM check_running PREPEND ${check_dir}/)
 list(TRANSFORM check_running APPEND .cpp)
 add_library(brittle_device_check STATIC ${check_running})

@@ -19,6 +19,15 @@ bool writeFile(const std::filesystem::path& path, const std::string& text, bool&
     return false;
 }
 
+// Keeps a file under a second name, or as a copy on file systems that have no second names. Leaves no half of a copy.
+bool keepAs(const std::filesystem::path& file, const std::filesystem::path& name, std::error_code& failed) {
+    std::filesystem::create_hard_link(file, name, failed);
+    if (!failed || std::filesystem::copy_file(file, name, failed)) return true;
+    std::error_code ignored;
+    std::filesystem::remove(name, ignored);
+    return false;
+}
+
 } // namespace
 
 void Results::add(const std::string& name, const Json& outcome) {
@@ -47,7 +56,7 @@ std::string Results::shown(int indent) const {
     return textOf(json, indent);
 }
 
-// A file is copied, not moved: if the new one cannot be written, the earlier one is still there.
+// The file keeps its name as well: if the new one cannot be written, the earlier one is still there.
 engine::Result<std::vector<std::string>> Results::keepEarlier() {
     std::vector<std::string> kept;
     for (const char* name : {"results.json", "results.html"}) {
@@ -57,7 +66,7 @@ engine::Result<std::vector<std::string>> Results::keepEarlier() {
         while (std::filesystem::exists(folder_ / (name + ("." + std::to_string(number))), failed))
             ++number;
         const std::string copy = name + ("." + std::to_string(number));
-        if (!std::filesystem::copy_file(folder_ / name, folder_ / copy, failed))
+        if (!keepAs(folder_ / name, folder_ / copy, failed))
             return engine::Error{engine::ErrorCode::BadInput, (folder_ / name).string() +
                                                                   ": is of an earlier check and cannot be kept (" +
                                                                   failed.message() + "); give another folder with -o"};

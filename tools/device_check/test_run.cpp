@@ -139,6 +139,8 @@ size_t TestRun::count(TestEnd end) const { return static_cast<size_t>(std::range
 
 bool TestRun::isComplete() const { return !tests.empty() && count(TestEnd::NotRun) == 0; }
 
+bool TestRun::isSkipped() const { return !tests.empty() && count(TestEnd::Skipped) == tests.size(); }
+
 bool TestRun::isGood() const {
     return problem.empty() && count(TestEnd::Failed) + count(TestEnd::Crashed) + count(TestEnd::Hung) == 0;
 }

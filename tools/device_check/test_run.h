@@ -33,7 +33,8 @@ struct TestRun {
 
     bool isComplete() const; // the tests are listed and all of them have ended
     size_t count(TestEnd end) const;
-    bool isGood() const; // nothing failed, crashed or hung; tests that did not run in time are no failure
+    bool isGood() const;    // nothing failed, crashed or hung; tests that did not run in time are no failure
+    bool isSkipped() const; // complete, and every test has skipped itself
 };
 
 // Runs those tests of `run` that have not run yet; all tests of the program if `run` has none. So a run that was cut short can
