@@ -21,6 +21,7 @@ give_up() {
 exec </dev/null
 true 3>&2 || exec 2>/dev/null # if it is closed, a driver's file would take its number
 { true 3>&1; } 2>/dev/null || exec >/dev/null
+exec 5>&2 # a signal may come while 2 is redirected
 
 script=$0
 [ ! -L "$script" ] || script=$(readlink -f -- "$script") || give_up 2 "the link $0 cannot be followed; run the script in its own folder"
@@ -90,7 +91,7 @@ worker= guard= new=
 start() {
   "$@" &
   worker=$!
-  watch "$worker" >/dev/null 2>&1 &
+  watch "$worker" >/dev/null 2>&1 5>&- &
   guard=$!
 }
 watch() {
@@ -118,7 +119,7 @@ attend() {
     return
   fi
   code=hangs
-  end_worker || code=stuck
+  end_worker 2>/dev/null || code=stuck
 }
 
 # Kills the worker. Returns 1 if it does not end, because its driver waits in the kernel.
@@ -135,12 +136,12 @@ end_worker() {
 
 # Leaves no program that goes on, and no half unpacked folder.
 clean_up() {
-  end_worker
+  end_worker 2>/dev/null
   [ -z "$new" ] || box rm -rf "$new"
 }
 end_by_signal() {
   trap '' HUP INT TERM
-  complain "ended by signal $1 before the check began, results until now are in $results"
+  complain "ended by signal $1 before the check began, results until now are in $results" 2>&5
   exit "$2"
 }
 trap clean_up EXIT
@@ -176,7 +177,7 @@ remove_leftovers() {
   done
 }
 
-unpack_archive() { exec "$kit/busybox" tar -xJf "$kit/programs.tar.xz" -C "$new"; }
+unpack_archive() { exec "$kit/busybox" tar -xJf "$kit/programs.tar.xz" -C "$new" 5>&-; }
 
 # Unpacks to $new. The file `complete` is written last: a folder without it is not used.
 needed=110 # MB
@@ -313,7 +314,7 @@ open_note() {
 }
 
 # Runs `brittle devices` with the libraries in $1, for `limit` seconds. Sets `said` to its output, and `code`.
-become_search() { become_brittle "$1" devices ${device:+--device "$device"} >&3 2>&3 3>&- 4<&-; }
+become_search() { become_brittle "$1" devices ${device:+--device "$device"} >&3 2>&3 3>&- 4<&- 5>&-; }
 search() {
   open_note
   start become_search "$1"
@@ -414,6 +415,7 @@ elif find_device || { repair && find_device; }; then
 else
   explain_no_device
 fi
+exec 5>&-
 if [ -n "$loader" ]; then
   become_brittle "$chosen" check-device --kit "$programs" -o "$output" --loader "$loader" --library-path "$chosen:$machine_libraries" "$@"
 else
