@@ -50,7 +50,8 @@ check_folder() {
     is_kit || refuse "$out holds files and is no kit: README.txt of a kit is missing; give a new or an empty folder with -o"
     case $name in
       busybox | programs.tar.xz | run.sh | README.txt)
-        [ -f "$out/$name" ] && [ ! -L "$out/$name" ] || refuse "$out/$name is no file of a kit; move it away, or give another folder with -o" ;;
+        [ -f "$out/$name" ] && [ ! -L "$out/$name" ] ||
+          refuse "$out/$name is no file of a kit; move it away, or give another folder with -o" ;;
       *)
         is_unpacked "$name" || is_result "$name" ||
           refuse "$out holds $name, which no kit has; move it away, or give another folder with -o" ;;

@@ -217,7 +217,10 @@ unpack_here() {
   [ -d "$folder" ] || { refuse "is not a folder"; return; }
   remove_leftovers
   ! is_usable || return 0
-  [ ! -e "$programs" ] || is_ours || { refuse "holds unpacked-$name of another user; remove it, or set TMPDIR to a folder of yours"; return; }
+  if [ -e "$programs" ] && ! is_ours; then
+    refuse "holds unpacked-$name of another user; remove it, or set TMPDIR to a folder of yours"
+    return
+  fi
   box mkdir "$programs.new.$$" 2>/dev/null || { refuse_for_room "cannot be written to"; return; }
   new=$programs.new.$$
   unpack_new && put_in_place
@@ -242,7 +245,8 @@ unpack() {
 
 # Returns 1 and sets `damaged` to a file that is not as it was packed.
 is_intact() {
-  damaged=$(cd "$programs" && box md5sum -c md5sums 2>&1 | box sed -n -e 's/: FAILED.*//p' -e "s/.*open 'md5sums'.*/md5sums/p" | box head -n 1)
+  damaged=$(cd "$programs" && box md5sum -c md5sums 2>&1 |
+    box sed -n -e 's/: FAILED.*//p' -e "s/.*open 'md5sums'.*/md5sums/p" | box head -n 1)
   for program in "$programs"/bin/* "$programs"/system/ld-linux*; do
     case $(box stat -c %A "$program" 2>/dev/null) in *x* | "") ;; *) damaged=${damaged:-${program#"$programs/"}} ;; esac
   done
@@ -372,9 +376,11 @@ explain_no_start() {
   is_intact || give_up 2 "$programs/$damaged is damaged right after unpacking; the disk or the memory may be faulty"
   case $code in
     126)
-      ! find_noexec "$programs" || give_up 2 "$programs/bin/brittle may not be executed, because $mount is mounted noexec; TMPDIR=DIR run.sh unpacks to another folder"
+      ! find_noexec "$programs" || give_up 2 "$programs/bin/brittle may not be executed, because $mount is mounted noexec;" \
+        "TMPDIR=DIR run.sh unpacks to another folder"
       give_up 2 "$programs/bin/brittle may not be executed: $reason" ;;
-    127) give_up 4 "brittle cannot be started, though its files are intact: $reason. A library of this machine may not fit; LD_LIBRARY_PATH and LD_PRELOAD are used" ;;
+    127) give_up 4 "brittle cannot be started, though its files are intact: $reason." \
+      "A library of this machine may not fit; LD_LIBRARY_PATH and LD_PRELOAD are used" ;;
   esac
 }
 
@@ -384,7 +390,8 @@ explain_no_device() {
   : "${reason:=$said}"
   if [ -n "$hung" ]; then
     ! $is_stuck || complain "a process that uses the driver cannot be ended: it waits in the kernel. A restart of the machine may help"
-    give_up 4 "the Vulkan driver hangs: \`brittle devices\` did not end in $limit s with $hung. The kernel's log may say why; --limit-scale 4 gives four times as long"
+    give_up 4 "the Vulkan driver hangs: \`brittle devices\` did not end in $limit s with $hung." \
+      "The kernel's log may say why; --limit-scale 4 gives four times as long"
   fi
   case $reason in
     *BRITTLE_DEVICE_WITHOUT*) give_up 2 "$reason" ;;
