@@ -57,7 +57,9 @@ check_folder() {
           refuse "$out holds $name, which no kit has; move it away, or give another folder with -o" ;;
     esac
   done < <(find "$out/" -mindepth 1 -maxdepth 1 -printf '%f\0')
+  [ -z "$(programs_in_use)" ] || refuse "$out is in use by a check; wait for its end, or give another folder with -o"
 }
+programs_in_use() { find /proc/[0-9]*/exe -lname "$(realpath "$out")/unpacked-*" 2>/dev/null || true; }
 check_folder
 
 # Removes the programs that earlier runs unpacked.
@@ -180,8 +182,6 @@ write_folder() {
   "$kit"/system/ld-linux-x86-64.so.2 --version | sed -n '1s/.* \([0-9.]*[0-9]\)\.*$/\1/p' >"$kit/system/version"
   check_folder
   mkdir -p "$out"
-  exec 9<"$out"
-  flock -n 9 || refuse "a check writes its results to $out now; wait for its end, or give another folder with -o"
   cp "$readme" "$out/README.txt"
   remove_unpacked
   install -m 755 "$kit/busybox" "$out/busybox"

@@ -73,6 +73,12 @@ gpu_check_keeps_files_of_others() {
     check test -d home/$name
     rmdir home/$name
   done
+  mkdir home/unpacked-0123456789ab
+  cp /bin/sleep home/unpacked-0123456789ab/brittle
+  home/unpacked-0123456789ab/brittle 60 &
+  local check=$!
+  expect 2 "is in use by a check" "${pack[@]}" home
+  kill $check
   mv home/programs.tar.xz elsewhere
   ln -s ../elsewhere home/programs.tar.xz
   expect 2 "programs.tar.xz is no file of a kit" "${pack[@]}" home
