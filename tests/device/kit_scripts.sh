@@ -79,6 +79,7 @@ gpu_check_keeps_files_of_others() {
   local check=$!
   expect 2 "is in use by a check" "${pack[@]}" home
   kill $check
+  rm -r home/unpacked-0123456789ab
   mv home/programs.tar.xz elsewhere
   ln -s ../elsewhere home/programs.tar.xz
   expect 2 "programs.tar.xz is no file of a kit" "${pack[@]}" home

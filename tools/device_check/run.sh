@@ -99,12 +99,12 @@ watch() {
   kill -0 "$$" || kill -KILL "$1"
 }
 
-# Returns 1 if the worker still runs after $1 ticks of 20 ms. -1: no limit.
+# Returns 1 if the worker still runs after $1 ticks of 50 ms. -1: no limit.
 ends_within() {
   ticks=$1
   while kill -0 "$worker" 2>/dev/null; do
     [ "$ticks" -ne 0 ] || return 1
-    box usleep 20000
+    box usleep 50000
     ticks=$((ticks - 1))
   done
 }
@@ -127,7 +127,7 @@ end_worker() {
   [ -n "$worker" ] || return 0
   kill -KILL "$worker" 2>/dev/null
   ended=0
-  ends_within 50 || ended=1
+  ends_within 20 || ended=1
   [ $ended -eq 0 ] || kill "$guard" 2>/dev/null
   wait "$guard" 2>/dev/null
   worker=
@@ -322,7 +322,7 @@ become_search() { become_brittle "$1" devices ${device:+--device "$device"} >&3 
 search() {
   open_note
   start become_search "$1"
-  attend $((limit * 50))
+  attend $((limit * 20))
   said=$(box head -c 65536 <&4)
   exec 3>&- 4<&-
 }
