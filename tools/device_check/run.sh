@@ -48,8 +48,9 @@ check_files() {
   for file in busybox programs.tar.xz; do
     [ -f "$kit/$file" ] || give_up 2 "$file is missing in $kit; copy the whole folder again"
     [ -r "$kit/$file" ] || give_up 2 "$kit/$file cannot be read by this user"
+    [ -s "$kit/$file" ] || give_up 2 "$kit/$file is empty; copy the whole folder again"
   done
-  ! box true 2>/dev/null || return 0
+  [ "$(box echo runs 2>/dev/null)" != runs ] || return 0
   ! find_noexec "$kit" || give_up 2 "$kit/busybox may not be executed, because $mount is mounted noexec; copy the folder to another disk"
   [ -x "$kit/busybox" ] || give_up 2 "$kit/busybox may not be executed; try chmod +x, or copy the folder to another disk"
   machine=$(uname -m 2>/dev/null || echo unknown)
@@ -159,7 +160,9 @@ refuse() {
 # `rejected` is a folder whose files turned out to be damaged.
 rejected=
 is_ours() { [ "$folder" = "$kit" ] || [ -O "$programs" ]; }
-is_usable() { [ "$programs" != "$rejected" ] && [ -f "$programs/complete" ] && [ -f "$programs/bin/brittle" ] && is_ours; }
+is_usable() { [ "$programs" != "$rejected" ] && [ -f "$programs/complete" ] && [ -f "$programs/bin/brittle" ] && is_ours && is_whole; }
+# A shell would run a truncated program as a script. So `complete` holds its size.
+is_whole() { [ "$(box cat "$programs/complete")" = "$(box stat -c %s "$programs/bin/brittle")" ]; }
 
 # Process ids mean nothing on another machine or in another container, which may share this folder.
 maker() { echo "$(box uname -n) $(box readlink /proc/self/ns/pid)"; }
@@ -188,7 +191,8 @@ unpack_new() {
   complain "unpacking to $programs"
   start unpack_archive
   attend -1
-  [ "$code" -eq 0 ] && [ -f "$new/bin/brittle" ] && echo complete 2>/dev/null >"$new/complete" || refuse_for_room "could not take all files"
+  [ "$code" -eq 0 ] && [ -f "$new/bin/brittle" ] && box stat -c %s "$new/bin/brittle" 2>/dev/null >"$new/complete" ||
+    refuse_for_room "could not take all files"
 }
 refuse_for_room() {
   free=$(box df -Pk "$folder" 2>/dev/null | box awk 'NR == 2 { print int($4 / 1024) }')
@@ -201,7 +205,7 @@ put_in_place() {
   ! box mv -T "$new" "$programs" 2>/dev/null || { rejected=; return; }
   ! is_usable || return 0
   box mv -T "$programs" "$new/replaced" 2>/dev/null
-  if [ "$programs" != "$rejected" ] && [ -f "$new/replaced/complete" ]; then
+  if [ "$programs" != "$rejected" ] && (programs=$new/replaced && is_whole) 2>/dev/null; then
     box mv -T "$new/replaced" "$programs" # another process was faster
   elif box mv -T "$new" "$programs" 2>/dev/null; then
     rejected=
