@@ -33,20 +33,42 @@ while [ $# -gt 0 ]; do
 done
 case $out in "") out=out/gpu-check ;; /*) ;; *) out=$called_in/$out ;; esac
 
+# The first line of a kit's README.txt is its mark; earlier kits have it, too.
+readme=tools/device_check/kit_readme.txt
+is_kit() { [ -f "$out/README.txt" ] && [ "$(head -n 1 "$out/README.txt")" = "$(head -n 1 "$readme")" ]; }
+
+# Names of folders that run.sh unpacks to. They are removed when the programs change.
+is_unpacked() { [[ $1 =~ ^unpacked-[0-9a-f]{12}(\.new\.[0-9]+)?$ ]]; }
+is_result() { [[ $1 =~ ^results\.(json|html)(\.[0-9]+|\.part[0-9]+)?$ || $1 =~ ^compiled(-[0-9]+)?$ || $1 =~ ^scratch-[A-Za-z0-9]{6}$ ]]; }
+
 # Refuses a folder that holds anything but an earlier kit and the results of its runs: packing replaces files there.
 check_folder() {
   [ -e "$out" ] || [ -L "$out" ] || return 0
   [ -d "$out" ] || refuse "$out is no folder; give another one with -o"
-  local path
-  while IFS= read -r path; do
-    [ -f "$out/programs.tar.xz" ] || refuse "$out holds files and is no kit; give a new or an empty folder with -o"
-    case ${path##*/} in
-      busybox | programs.tar.xz | run.sh | README.txt | results.json* | results.html* | unpacked-* | compiled* | scratch-*) ;;
-      *) refuse "$out holds $path, which no kit has; move it away, or give another folder with -o" ;;
+  local name
+  while IFS= read -r -d '' name; do
+    is_kit || refuse "$out holds files and is no kit: README.txt of a kit is missing; give a new or an empty folder with -o"
+    case $name in
+      busybox | programs.tar.xz | run.sh | README.txt)
+        [ -f "$out/$name" ] && [ ! -L "$out/$name" ] ||
+          refuse "$out/$name is no file of a kit; move it away, or give another folder with -o" ;;
+      *)
+        is_unpacked "$name" || is_result "$name" ||
+          refuse "$out holds $name, which no kit has; move it away, or give another folder with -o" ;;
     esac
-  done < <(find "$out/" -mindepth 1 -maxdepth 1 -printf '%f\n')
+  done < <(find "$out/" -mindepth 1 -maxdepth 1 -printf '%f\0')
+  [ -z "$(programs_in_use)" ] || refuse "$out is in use by a check; wait for its end, or give another folder with -o"
 }
+programs_in_use() { find /proc/[0-9]*/exe -lname "$(realpath "$out")/unpacked-*" 2>/dev/null || true; }
 check_folder
+
+# Removes the programs that earlier runs unpacked.
+remove_unpacked() {
+  local path
+  for path in "$out"/unpacked-*; do
+    if is_unpacked "${path##*/}"; then rm -rf "$path"; fi
+  done
+}
 
 bin=build/release/bin
 tests=(brittle_tests_engine brittle_tests_kernel brittle_tests_module brittle_tests_abi)
@@ -148,18 +170,26 @@ write_expected() {
   "$bin/brittle" check-device --kit "$kit" --write-expected "$kit/expected.json"
 }
 
+# run.sh reads these if `brittle` does not start.
+write_checksums() {
+  local sums
+  sums=$(cd "$kit" && find . -xtype f -printf '%P\0' | sort -z | xargs -0 md5sum)
+  printf '%s\n' "$sums" >"$kit/md5sums"
+}
+
 write_folder() {
   say "packing"
   "$kit"/system/ld-linux-x86-64.so.2 --version | sed -n '1s/.* \([0-9.]*[0-9]\)\.*$/\1/p' >"$kit/system/version"
   check_folder
   mkdir -p "$out"
-  rm -rf "$out"/unpacked-* # of the programs that are replaced now
+  cp "$readme" "$out/README.txt"
+  remove_unpacked
   install -m 755 "$kit/busybox" "$out/busybox"
   rm "$kit/busybox"
   git describe --always --dirty >"$kit/commit" 2>/dev/null || echo unknown >"$kit/commit"
+  write_checksums
   tar -C "$kit" --owner=0 --group=0 --sort=name -cf - . | xz "-$($small && echo 1 || echo 6)" -T2 >"$out/programs.tar.xz"
   install -m 755 tools/device_check/run.sh "$out/run.sh"
-  cp tools/device_check/kit_readme.txt "$out/README.txt"
   du -sh "$out"
 }
 
