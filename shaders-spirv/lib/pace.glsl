@@ -81,7 +81,8 @@ float ratioOf(uvec2 ids) {
 // A body that is so much heavier than what it comes to needs its substeps in the step in which it comes.
 const float kMuchHeavier = 4.0;
 
-bool comesHeavy(uint c, float ratio) { return push_.heaps_too != 0u && most_load != 0u && ratio > kMuchHeavier && loadOf(c) == 0.0; }
+bool may_hurry; // false for a heap
+bool comesHeavy(uint c, float ratio) { return may_hurry && most_load != 0u && ratio > kMuchHeavier && loadOf(c) == 0.0; }
 
 // In weights of the lighter body.
 float weightsOn(uint c, float g, float height) {
@@ -156,6 +157,7 @@ uint paceFrom(bool is_heap, uint most, out bool carries) {
 
 uint paceOf(uint lane, uvec2 range, uint height, bool is_heap, uint most, out bool carries) {
     float g = length(push_.gravity.xyz);
+    may_hurry = !is_heap;
     clearPace(lane);
     barrier();
     gatherLoads(lane, range);

@@ -5,16 +5,29 @@
 // in each sweep. So more sweeps follow, until little is left to be done.
 //
 // After a few sweeps impulses change by almost the same in each. So every third sweep makes its change once more, as many times as
-// takes the most energy from the bodies (an exact line search).
+// takes the most energy from the bodies (an exact line search), and not so often that a point would have to pull: a change that is cut
+// off there may add energy.
 //
 // Wants lib/solve_contact.glsl and lib/pace.glsl, sync(), `turns_left` and the buffer `heights`, whose words are free in a substep.
 shared uint hit, struck, heaviest; // hit: as haste() gives it, of the fastest contact; heaviest: kg, as bits
+shared uint least_times;           // how often the last change may be made before a point pulls, as bits
 const uint kMostSweeps = 30u, kSweepsOfHeaps = 15u, kSweepsToSettle = 8u;
 const float kEnough = 1e-5;      // of the greatest impulse
 const float kMostRepeated = 1e4; // times
 
-// The soft solver does with less, and so do heaps: there sweeps follow only where a body is struck in two contacts.
-bool sweepsOn() { return push_.heaps_too != 0u && !rubs_in_push; }
+// Heaps do with less, and so do bodies of like masses in the soft solver: there sweeps follow only where a body is struck in two
+// contacts. A contact alone waits for no other.
+shared uint is_uneven; // whether a body of the island touches one that is much lighter
+bool sweeps_on;
+
+bool needsSweeps(uint lane, uvec2 range) {
+    if (lane == 0u) is_uneven = push_.heaps_too;
+    barrier();
+    for (uint c = range.x + lane; c < range.y; c += LANES)
+        if (ratioOf(solver_contacts[c].ids.xy) > kMuchHeavier) is_uneven = 1u;
+    barrier();
+    return is_uneven != 0u && !rubs_in_push && range.y - range.x > 1u;
+}
 
 bool was_hit; // whether anything came in fast when the last sweep of a kind began
 
@@ -55,7 +68,7 @@ void noteStrike(uint body, uint other, bool is_blow, uint stamp) {
     float inverse = solver_bodies[body].velocity.w;
     if (inverse == 0.0) return;
     float others = solver_bodies[other].velocity.w;
-    if (sweepsOn() && others > 0.0 && inverse > kMuchHeavier * others) struck = 1u;
+    if (sweeps_on && others > 0.0 && inverse > kMuchHeavier * others) struck = 1u;
     if (is_blow && atomicExchange(heights[body], stamp) == stamp) struck = 1u;
 }
 
@@ -75,9 +88,9 @@ bool anyStruck(uint lane, uvec2 range, bool wanted, uint stamp) {
     }
     barrier();
     was_hit = float(hit) >= POINT_MET;
-    end = float(hit) >= (sweepsOn() ? POINT_MET : POINT_HIT) ? end : range.x;
+    end = float(hit) >= (sweeps_on ? POINT_MET : POINT_HIT) ? end : range.x;
     for (uint c = range.x + lane; c < end; c += LANES) noteStrikes(c, stamp);
-    end = sweepsOn() ? end : range.x; // a loop that turns zero times costs nothing where an `if` would
+    end = sweeps_on ? end : range.x; // a loop that turns zero times costs nothing where an `if` would
     for (uint c = range.x + lane; c < end; c += LANES)
         if (comesInStill(c, solver_contacts[c].ids.z)) struck = 1u;
     barrier();
@@ -88,13 +101,14 @@ bool anyStruck(uint lane, uvec2 range, bool wanted, uint stamp) {
 
 // The number of sweeps of this kind that follow at the most.
 uint moreSweeps(bool is_struck, bool settles, uint turns) {
-    uint wanted = is_struck ? (sweepsOn() ? kMostSweeps : kSweepsOfHeaps) : settles ? kSweepsToSettle : 0u;
+    uint wanted = is_struck ? (sweeps_on ? kMostSweeps : kSweepsOfHeaps) : settles ? kSweepsToSettle : 0u;
     uint more = min(wanted, turns_left / turns);
     turns_left -= more * turns;
     return more;
 }
 
 void watch(uint lane, uvec2 range) {
+    if (lane == 0u) least_times = floatBitsToUint(kMostRepeated);
     for (uint c = range.x + lane; c < range.y; c += LANES) {
         uint points = solver_contacts[c].ids.z;
         solver_contacts[c].before = impulsesOf(c, points);
@@ -102,11 +116,18 @@ void watch(uint lane, uvec2 range) {
     }
 }
 
+float timesTo(vec4 now, vec4 change) {
+    float least = kMostRepeated;
+    for (uint k = 0u; k < MANIFOLD_POINTS; k++) least = change[k] < 0.0 ? min(least, now[k] / -change[k]) : least;
+    return least;
+}
+
 // SWEEP_* of the last sweep, for all contacts together. Every lane adds them up in the same order.
 vec4 doneBy(uint lane, uvec2 range) {
     for (uint c = range.x + lane; c < range.y; c += LANES) {
         uint points = solver_contacts[c].ids.z;
         vec4 now = impulsesOf(c, points), change = now - solver_contacts[c].before, lacks = speedsLacking(c, points);
+        atomicMin(least_times, floatBitsToUint(timesTo(now, change)));
         solver_contacts[c].lacks = vec4(-dot(change, lacks), dot(change, lacks - solver_contacts[c].lacks), greatestOf(abs(change)),
                                         greatestOf(now));
     }
@@ -149,7 +170,7 @@ void repeatChanges(uint lane, uvec2 range, float times) {
 // Tells whether little is left to be done. If not, and if `repeats`, makes the change of the last sweep more often.
 bool isDone(uint lane, uvec2 range, bool repeats) {
     vec4 done = doneBy(lane, range);
-    float times = done[SWEEP_LOSS] > 0.0 ? clamp(done[SWEEP_GAIN] / done[SWEEP_LOSS], 0.0, kMostRepeated) : 0.0;
+    float times = done[SWEEP_LOSS] > 0.0 ? clamp(done[SWEEP_GAIN] / done[SWEEP_LOSS], 0.0, uintBitsToFloat(least_times)) : 0.0;
     bool is_enough = max(times, 1.0) * done[SWEEP_CHANGE] <= kEnough * done[SWEEP_PRESSED];
     sync();
     repeatChanges(lane, range, repeats && !is_enough ? times : 0.0);

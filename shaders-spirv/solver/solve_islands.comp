@@ -180,7 +180,7 @@ void solveSubstep(uint lane, uvec2 range, uint first, uint substep, uint turns, 
         }
         bool is_struck = anyStruck(lane, range, is_first, 0x80000000u | 2u * substep | (moves ? 1u : 0u));
         uint found = moreSweeps(is_struck, moves && settles && !was_hit, turns);
-        watches = watches || (is_struck && sweepsOn());
+        watches = watches || (is_struck && sweeps_on);
         strikes = strikes || watches;
         pushes += begins ? found : 0u;
         relaxes += moves ? found : 0u;
@@ -220,8 +220,9 @@ void main() {
     sync();
     setSubstep(pace);
     rubs_in_push = solver_contacts[range.x].pace.z != 0u;
-    keeps_first = sweepsOn();
-    weighBodies(lane, sweepsOn() ? range : range.yy);
+    sweeps_on = needsSweeps(lane, range);
+    keeps_first = sweeps_on;
+    weighBodies(lane, sweeps_on ? range : range.yy);
 #ifdef BOUNCE
     findImpacts(lane, range);
 #endif

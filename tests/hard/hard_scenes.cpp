@@ -75,6 +75,8 @@ constexpr SceneCase kCases[] = {
     {"hard_35_dropped_250", heavyStands, 0, kLong},
     {"hard_35_dropped_300", heavyStands},
     {"hard_35_dropped_1000_hard", heavyStands},
+    {"hard_35_dropped_150_of_10cm", heavyStands},
+    {"hard_35_dropped_150_of_10m", heavyStands},
     {"hard_35_dropped_cylinder_60", heavyStands},
     {"hard_35_placed_10", heavyStands, 0, kLong},
     {"hard_35_placed_100", heavyStands, 0, kLong},

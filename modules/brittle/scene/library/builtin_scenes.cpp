@@ -127,6 +127,8 @@ const std::vector<SceneEntry>& builtinScenes() {
         {"hard_35_dropped_250", heavyDropped, 250},
         {"hard_35_dropped_300", heavyDropped, 300},
         {"hard_35_dropped_1000_hard", heavyDroppedHard, 1000},
+        {"hard_35_dropped_150_of_10cm", smallHeavyDropped, 150},
+        {"hard_35_dropped_150_of_10m", largeHeavyDropped, 150},
         {"hard_35_dropped_cylinder_60", heavyCylinderDropped, 60},
         {"hard_35_placed_10", heavyPlaced, 10},
         {"hard_35_placed_100", heavyPlaced, 100},

@@ -50,6 +50,18 @@ SceneDescription heavyAndLight(double gap, uint32_t ratio, const std::string& ho
     return scene;
 }
 
+// Lengths alone: steps and masses stay.
+void scaleCubes(SceneDescription& scene, double times) {
+    for (BodyDescription& body : scene.bodies)
+        for (size_t axis = 0; axis < 3; ++axis) {
+            body.shape.size[axis] *= times;
+            body.place[axis] *= times;
+        }
+    for (Double3* point : {&scene.camera.eye, &scene.camera.target})
+        for (double& x : *point)
+            x *= times;
+}
+
 } // namespace
 
 SceneDescription tallStack(uint32_t number) {
@@ -73,6 +85,18 @@ SceneDescription heavyDropped(uint32_t ratio) { return heavyAndLight(0.1, ratio,
 SceneDescription heavyDroppedHard(uint32_t ratio) {
     SceneDescription scene = heavyDropped(ratio);
     scene.step.solver = SolverKind::Hard;
+    return scene;
+}
+
+SceneDescription smallHeavyDropped(uint32_t ratio) {
+    SceneDescription scene = heavyAndLight(3, ratio, "falls by three edges of 10 cm onto");
+    scaleCubes(scene, 0.1);
+    return scene;
+}
+
+SceneDescription largeHeavyDropped(uint32_t ratio) {
+    SceneDescription scene = heavyAndLight(0.3, ratio, "falls by 3 m, 0.3 edges, onto");
+    scaleCubes(scene, 10);
     return scene;
 }
 
