@@ -44,7 +44,7 @@ Vector3d placeOf(const gpu::BreakEvent& event) {
     return 16 * Vector3d(event.sector.x, event.sector.y, event.sector.z) + vectorIn(event.offset);
 }
 
-// Of a turned box, as a blow meets it.
+// How a blow meets a turned box.
 struct Meeting {
     Vector3d place, along; // the nearest place of the box; from there to the blow
     double mass = 0;       // of the box and of a ball of the same density that meet there
@@ -159,7 +159,7 @@ TEST(SmallStrikes, WakeWhatRestedOnABodyThatBreaks) {
     ASSERT_TRUE(sleeps());
     ASSERT_EQ(breaksOf(*world, {{{0.15, 0.1, 0}, 0.06, 2000}}).size(), 1u);
     EXPECT_FALSE(sleeps());
-    EXPECT_LT((*world->bodies())[1].velocity.w, 0.1f) << "it counts anew how long it has hardly moved";
+    EXPECT_LT((*world->bodies())[1].velocity.w, 0.1f) << "it counts again how long it has hardly moved";
 }
 
 } // namespace
