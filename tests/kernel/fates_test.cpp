@@ -77,7 +77,7 @@ float measuredVolume(const Sheet& sheet, float unit) {
                                 {counts.words, films, start, ordered, pieces, positions, measured});
     });
     const auto after = valuesOf<brittle::FragmentRecord>(measured, 2);
-    EXPECT_EQ(after[0].measure[0], 77) << "what is no film stays as it is";
+    EXPECT_EQ(after[0].measure[0], 77) << "the other component stays as it is";
     return after[1].measure[0];
 }
 

@@ -18,7 +18,7 @@ using namespace breaking_scenes;
 using Eigen::Vector3d, Eigen::Quaterniond;
 using engine_test::device;
 
-const brittle::Double3 kOrigin = {1000, 20, -3}; // m, of what is drawn
+const brittle::Double3 kOrigin = {1000, 20, -3}; // m, that matrices count from
 const Vector3d kSize(0.3, 0.2, 0.1);
 const Vector3d kBreaks(1000.3, 20.1, -3.2), kWhole(1001.5, 20.5, -3); // centers
 

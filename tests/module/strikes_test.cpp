@@ -1,5 +1,5 @@
-// What a host strikes by hand: which bodies break, where, and of how much. The place and the mass that meets come from boxes
-// and Newton's laws in double precision.
+// Tests which bodies a host breaks by hand, where, and by how much energy. The expected place and mass come from boxes and
+// Newton's laws in double precision.
 #include "modules/brittle/dynamics/pose.h"
 #include "tests/module/breaking_scenes.h"
 
