@@ -41,6 +41,16 @@ device_test(device_kit_scripts ${CMAKE_CURRENT_SOURCE_DIR}/device/kit_scripts.sh
 
 device_test(planted_constants ${CMAKE_CURRENT_SOURCE_DIR}/device/planted_constants.sh ${CMAKE_BINARY_DIR} ${GLSLANG} ${SPIRV_OPT})
 
+# Every kernel has a test that fails if the kernel does nothing. The quick one takes kernels that no test of the kernels alone runs.
+get_property(kernel_names GLOBAL PROPERTY brittle_shaders_names)
+list(JOIN kernel_names "\n" kernel_names)
+file(WRITE ${CMAKE_BINARY_DIR}/kernel_names.txt "${kernel_names}\n")
+set(empty_kernels ${CMAKE_CURRENT_SOURCE_DIR}/device/empty_kernels.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/kernel_names.txt)
+device_test(empty_kernels ${empty_kernels} solve_contacts bounce_rest time_rest claim_strikes wake_struck weigh_fragments write_draws
+    bound_partings check_breaking measure_films)
+device_test(empty_kernels_all ${empty_kernels})
+set_tests_properties(empty_kernels_all PROPERTIES LABELS long)
+
 # Missing barriers are noticed: the tests of barriers that need the layer skip in the program's other run.
 add_brittle_test(barriers_validated brittle_tests_engine "Barriers.*" quick)
 set_property(TEST barriers_validated APPEND PROPERTY ENVIRONMENT VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation

@@ -1,19 +1,13 @@
 #!/usr/bin/env bash
 # planted_constants.sh BUILD GLSLANG SPIRV_OPT: plants one wrong constant at a time in a kernel (planted_constants.txt), and runs
-# the kernel's own test with it. Fails if such a test passes. The kernel tests load the changed kernel in place of the built
-# one (BRITTLE_TEST_KERNEL, tests/kernel/lab.cpp).
+# a test of that kernel with it. Fails if such a test passes.
 set -euo pipefail
 
 build=$1 glslang=$2 optimizer=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 shaders=$(cd "$here/../../shaders-spirv" && pwd)
 folder=$build/device-test/planted
-failures=0
-
-report() {
-  echo "$1"
-  failures=$((failures + 1))
-}
+source "$here/planting.sh"
 
 # Leaves the kernel's words, with the change made, in $folder/KERNEL.spv. The change may be in any file that the kernel includes.
 compile_changed() {
@@ -33,36 +27,22 @@ compile_changed() {
   "$optimizer" -O --preserve-bindings --preserve-spec-constants "$folder/raw.spv" -o "$folder/$kernel.spv"
 }
 
-# Prints whether the test passes, fails, or does neither (the kernel was not loaded, the test does not exist, a crash).
-outcome_of() {
-  local kernel=$1 test=$2 status=0
-  BRITTLE_TEST_KERNEL=$kernel=$folder/$kernel.spv "$build/bin/brittle_tests_kernel" --gtest_filter="$test" \
-    >"$folder/$kernel.log" 2>&1 || status=$?
-  if [ $status = 0 ] && grep -q '\[       OK \]' "$folder/$kernel.log"; then
-    echo passes
-  elif [ $status = 1 ] && grep -q "^\[  FAILED  \] $test" "$folder/$kernel.log"; then
-    echo fails
-  else
-    echo "ends with $status"
-  fi
-}
-
 rm -rf "$folder"
 mkdir -p "$folder"
 planted=0
-while IFS='|' read -r kernel file defines place change test; do
+while IFS='|' read -r kernel file defines place change program test; do
   [[ -n $kernel && $kernel != "#"* ]] || continue
   compile_changed "$kernel" "$file" "$defines" "$place" "$change" || continue
   wanted=fails
   [ -n "$change" ] || wanted=passes
-  outcome=$(outcome_of "$kernel" "$test")
+  outcome=$(outcome_of "$program" "$test" "$kernel=$folder/$kernel.spv")
   planted=$((planted + 1))
   if [ "$outcome" = "$wanted" ]; then
     echo "$kernel: $test $outcome with \"$change\""
   else
     report "FAILED: $kernel: $test $outcome with \"$change\", but ${wanted%s} it must"
-    tail -5 "$folder/$kernel.log"
+    tail -5 "$folder/log"
   fi
 done <"$here/planted_constants.txt"
-[ "$planted" -ge 7 ] || report "FAILED: only $planted lines of planted_constants.txt were tried"
+[ "$planted" -ge 20 ] || report "FAILED: only $planted lines of planted_constants.txt were tried"
 [ "$failures" = 0 ]

@@ -2,6 +2,7 @@
 // failed. If every test has skipped itself, the exit code is 77.
 #include "engine/instance.h"
 #include "tests/engine/test_device.h"
+#include "tests/support/planted_kernel.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -40,6 +41,7 @@ void expectValidationMessages(uint32_t count) { expected_messages = count; }
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
+    support::plantKernel();
     testing::UnitTest::GetInstance()->listeners().Append(new ValidationGate);
     const int result = RUN_ALL_TESTS();
     const uint32_t before = engine::validationMessageTotal();

@@ -2,39 +2,10 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 namespace kernel_test {
 namespace {
-
-[[noreturn]] void giveUp(const std::string& why) {
-    std::fprintf(stderr, "%s\n", why.c_str());
-    std::_Exit(2); // not the code of a test that fails
-}
-
-std::shared_ptr<const std::vector<uint32_t>> wordsOfFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    if (bytes.empty() || bytes.size() % 4 != 0) giveUp(path + " is no SPIR-V file");
-    auto words = std::make_shared<std::vector<uint32_t>>(bytes.size() / 4);
-    std::memcpy(words->data(), bytes.data(), bytes.size());
-    return words;
-}
-
-// BRITTLE_TEST_KERNEL=NAME=FILE.spv in the environment puts the words of a file in place of one kernel's, so that a script can
-// check that the tests notice a kernel that computes something else.
-void plantKernel(engine::KernelLibrary& library) {
-    const char* planted = std::getenv("BRITTLE_TEST_KERNEL");
-    if (planted == nullptr) return;
-    const std::string both = planted;
-    const size_t split = both.find('=');
-    if (split == std::string::npos) giveUp("BRITTLE_TEST_KERNEL is " + both + ", expected NAME=FILE.spv");
-    auto replacement = library.prepare(both.substr(0, split), wordsOfFile(both.substr(split + 1)));
-    if (!replacement) giveUp(replacement.error().message);
-    if (auto adopted = library.adopt({&*replacement, 1}); !adopted) giveUp(adopted.error().message);
-}
 
 // One library for the kernels of the project, one for those of the tests. Both go before their device does.
 class Libraries : public testing::Environment {
@@ -44,7 +15,6 @@ public:
         const auto modules = of_tests ? shaders::kernelTestKernels() : shaders::all();
         if (library) return *library;
         library = std::make_unique<engine::KernelLibrary>(engine_test::device(), modules);
-        if (!of_tests) plantKernel(*library);
         return *library;
     }
     const engine::Kernel& find(bool of_tests, std::string_view name, std::span<const uint32_t> spec) {

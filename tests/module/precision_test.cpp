@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -102,6 +103,47 @@ TEST(Precision, DoesNotShowWhereNothingTies) {
             whole::expectContract(model, *result);
         }
     }
+}
+
+// Each precision has buffers of its own: those of a break with exact signs would still hold its values.
+void expectAsExact(const whole::Model& model, FractureOptions options, const Precision precision) {
+    SCOPED_TRACE(nameOf(precision));
+    options.precision = Precision::Exact;
+    const auto exact = broken(model, options);
+    ASSERT_TRUE(exact) << exact.error().message;
+    options.precision = precision;
+    const auto fracture = brittle::Fracture::create(engine_test::device());
+    ASSERT_TRUE(fracture) << fracture.error().message;
+    const auto result = (*fracture)->shatter(model.prepared.mesh, model.prepared.topology, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->fragments.fragments.size(), exact->fragments.fragments.size());
+    EXPECT_EQ(result->fragments.indices.size(), exact->fragments.indices.size());
+    whole::expectContract(model, *result);
+}
+
+TEST(Precision, DoesNotShowInAFirstBreak) {
+    const whole::Model model = whole::modelFrom("builtin:bumpy:3");
+    for (const Precision precision : {Precision::Double, Precision::Fast})
+        expectAsExact(model, sites(60, precision), precision);
+}
+
+// A section of the model has 300 sides and more.
+TEST(Precision, DoesNotShowInFacesOfManySides) {
+    const whole::Model model = whole::modelFrom("builtin:bumpy:5");
+    for (const Precision precision : {Precision::Double, Precision::Fast})
+        expectAsExact(model, sites(2, precision), precision);
+}
+
+// The cell in the middle has 200 sides; no two of its neighbors are as far away as each other.
+TEST(Precision, DoesNotShowInCellsOfManySides) {
+    const whole::Model cube = whole::modelFrom("builtin:cube");
+    FractureOptions options;
+    options.given_sites = {{0.01, 0.02, 0}};
+    for (int k = 0; k < 200; ++k) {
+        const double angle = 0.0314159 * k + 0.0005 * (k % 7), radius = 0.3 + 0.0001 * (k % 5);
+        options.given_sites.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.001 * (k % 3)});
+    }
+    expectAsExact(cube, options, Precision::Double);
 }
 
 TEST(Precision, OfOthersDoesNotShowInExactFragments) {
