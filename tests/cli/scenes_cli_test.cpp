@@ -59,6 +59,13 @@ TEST_F(ScenesCli, RefusesWhatIsWrongInOneLine) {
     EXPECT_FALSE(std::filesystem::exists(path("a.toml")));
 }
 
+TEST_F(ScenesCli, RefusesASceneThatAFileCannotHold) {
+    expectOneLine(runProgram("brittle", {"scenes", "hard_36_slide_sheet", "-o", path("a.toml")}),
+                  "a scene file cannot hold it");
+    EXPECT_FALSE(std::filesystem::exists(path("a.toml")));
+    EXPECT_EQ(runProgram("brittle", {"scenes", "hard_36_slide_sheet", "--json"}).exit_code, 0);
+}
+
 TEST_F(ScenesCli, DoesNotWriteOverWhatItReads) {
     ASSERT_EQ(runProgram("brittle", {"scenes", "bounce", "-o", path("b.toml")}).exit_code, 0);
     const std::string before = fileBytes(path("b.toml"));

@@ -112,6 +112,7 @@ constexpr SceneCase kCases[] = {
     {"hard_40_compounds_1000", stopWhereTheyTouch, 1000},
     {"hard_41_slope_99", liesForMinutes, 0, kLong},
     {"hard_42_scales", movesAlikeAtEveryScale},
+    {"hard_42_scales_of_cases", casesMoveAlikeAtEveryScale, 0, kLong},
     {"hard_43_tiny", tinyBodiesRest, 0, kLong},
 };
 

@@ -20,5 +20,6 @@ void movesAsTheReference(Trial& trial, const SceneCase& self);
 void weighsAlike(Trial& trial, const SceneCase& self);
 void scalesAlike(Trial& trial, const SceneCase& self);
 void movesAlikeAtEveryScale(Trial& trial, const SceneCase& self);
+void casesMoveAlikeAtEveryScale(Trial& trial, const SceneCase& self);
 
 } // namespace hard

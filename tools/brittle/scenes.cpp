@@ -58,9 +58,26 @@ engine::Result<void> write(const std::string& path, const std::string& text) {
     return file->commit();
 }
 
+bool hasNoFile(const brittle::ShapeDescription& shape) { return shape.model != nullptr && shape.file.empty(); }
+
+// A scene file names models by their files, and some built-in scenes make theirs.
+engine::Result<void> checkHasFiles(const brittle::SceneDescription& scene) {
+    const auto refused = [&](const std::string& what, const std::string& name) {
+        return engine::Error{engine::ErrorCode::BadInput,
+                             scene.name + ": the mesh of " + what + " '" + name +
+                                 "' is made by the program, so a scene file cannot hold it; --json describes the scene"};
+    };
+    for (const brittle::BodyDescription& body : scene.bodies)
+        if (hasNoFile(body.shape)) return refused("body", body.name);
+    for (const brittle::ColliderDescription& collider : scene.colliders)
+        if (hasNoFile(collider.shape)) return refused("collider", collider.name);
+    return {};
+}
+
 int showScene(const ScenesOptions& options) {
     const auto scene = readSceneOrBuiltin(options.scene);
     if (!scene) return fail(scene.error());
+    if (auto held = checkHasFiles(*scene); !held && !options.as_json) return fail(held.error());
     const std::string text = options.as_json ? jsonOf(*scene).dump(2) + "\n" : brittle::writeScene(*scene);
     if (options.output.empty()) {
         std::fwrite(text.data(), 1, text.size(), stdout);
