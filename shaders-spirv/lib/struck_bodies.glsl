@@ -11,6 +11,8 @@
 // Wants lib/solve_contact.glsl and lib/pace.glsl, sync(), `turns_left` and the buffer `heights`, whose words are free in a substep.
 shared uint hit, struck, heaviest; // hit: as haste() gives it, of the fastest contact; heaviest: kg, as bits
 shared uint least_times;           // how often the last change may be made before a point pulls, as bits
+shared uint most_done[4];          // SWEEP_*: the greatest of a contact, as bits
+shared int sums_done[2];           // SWEEP_GAIN, SWEEP_LOSS, in shares of those
 const uint kMostSweeps = 30u, kSweepsOfHeaps = 15u, kSweepsToSettle = 8u;
 const float kEnough = 1e-5;      // of the greatest impulse
 const float kMostRepeated = 1e4; // times
@@ -108,7 +110,11 @@ uint moreSweeps(bool is_struck, bool settles, uint turns) {
 }
 
 void watch(uint lane, uvec2 range) {
-    if (lane == 0u) least_times = floatBitsToUint(kMostRepeated);
+    if (lane == 0u) {
+        least_times = floatBitsToUint(kMostRepeated);
+        for (uint k = 0u; k < 4u; k++) most_done[k] = 0u;
+        sums_done[0] = sums_done[1] = 0;
+    }
     for (uint c = range.x + lane; c < range.y; c += LANES) {
         uint points = solver_contacts[c].ids.z;
         solver_contacts[c].before = impulsesOf(c, points);
@@ -122,22 +128,34 @@ float timesTo(vec4 now, vec4 change) {
     return least;
 }
 
-// SWEEP_* of the last sweep, for all contacts together. Every lane adds them up in the same order.
+void measureSweep(uint c) {
+    uint points = solver_contacts[c].ids.z;
+    vec4 now = impulsesOf(c, points), change = now - solver_contacts[c].before, lacks = speedsLacking(c, points);
+    vec4 done = vec4(-dot(change, lacks), dot(change, lacks - solver_contacts[c].lacks), greatestOf(abs(change)), greatestOf(now));
+    for (uint k = 0u; k < 4u; k++) atomicMax(most_done[k], floatBitsToUint(abs(done[k])));
+    atomicMin(least_times, floatBitsToUint(timesTo(now, change)));
+    solver_contacts[c].lacks = done;
+}
+
+// A power of two that makes whole numbers up to 2^20 of what is at most this large: 1024 of them fit into 32 bits; 0 for what is tiny.
+float perUnit(uint most) {
+    uint exponent = most >> 23;
+    return exponent > 20u && exponent < 255u ? uintBitsToFloat((273u - exponent) << 23) : 0.0;
+}
+
+// SWEEP_* of the last sweep, for all contacts together. Their order in a color is chance, so whole numbers are added.
 vec4 doneBy(uint lane, uvec2 range) {
+    for (uint c = range.x + lane; c < range.y; c += LANES) measureSweep(c);
+    barrier();
+    vec2 units = vec2(perUnit(most_done[SWEEP_GAIN]), perUnit(most_done[SWEEP_LOSS]));
     for (uint c = range.x + lane; c < range.y; c += LANES) {
-        uint points = solver_contacts[c].ids.z;
-        vec4 now = impulsesOf(c, points), change = now - solver_contacts[c].before, lacks = speedsLacking(c, points);
-        atomicMin(least_times, floatBitsToUint(timesTo(now, change)));
-        solver_contacts[c].lacks = vec4(-dot(change, lacks), dot(change, lacks - solver_contacts[c].lacks), greatestOf(abs(change)),
-                                        greatestOf(now));
+        ivec2 share = ivec2(round(units * solver_contacts[c].lacks.xy));
+        atomicAdd(sums_done[0], share.x);
+        atomicAdd(sums_done[1], share.y);
     }
     sync();
-    vec4 sum = vec4(0.0);
-    for (uint c = range.x; c < range.y; c++) {
-        vec4 one = solver_contacts[c].lacks;
-        sum = vec4(sum.xy + one.xy, max(sum.zw, one.zw));
-    }
-    return sum;
+    vec2 sums = vec2(sums_done[0], sums_done[1]) * vec2(inverseOf(units.x), inverseOf(units.y));
+    return vec4(sums, uintBitsToFloat(most_done[SWEEP_CHANGE]), uintBitsToFloat(most_done[SWEEP_PRESSED]));
 }
 
 // Changes the impulses of a contact by `times` their change in the last sweep.

@@ -27,6 +27,13 @@ protected:
     void addTests(const std::string& name) const {
         fs::copy_file(fs::path(BRITTLE_SOURCE_DIR) / "tests/device/fake_tests.sh", kit() / "bin" / name);
     }
+    // A program with one test, Fake.Passes. `script` stands for what it does when it runs.
+    void writeTests(const std::string& script) const {
+        const fs::path program = kit() / "bin/brittle_tests_kernel";
+        std::ofstream(program) << "#!/bin/sh\ncase \"$*\" in *list_tests*) printf 'Fake.\\n  Passes\\n'; exit ;; esac\n"
+                               << script << "\n";
+        fs::permissions(program, fs::perms::owner_all);
+    }
     fs::path kit() const { return folder() / "a \"kit\" \\ here"; }
     std::vector<std::string> arguments(const std::vector<std::string>& options) const {
         std::vector<std::string> all = {"check-device", "--kit", kit().string(), "-o", path("out")};
@@ -103,15 +110,34 @@ TEST_F(CheckCli, NamesTheTestsThatWereNotReached) {
 }
 
 TEST_F(CheckCli, IsNotDoneIfAllTestsSkipThemselves) {
-    std::ofstream(kit() / "bin/brittle_tests_kernel")
-        << "#!/bin/sh\nprintf 'Fake.\\n  Skips\\n'\n"
-           "echo '[ RUN      ] Fake.Skips'; echo '[  SKIPPED ] Fake.Skips (0 ms)'\n";
-    fs::permissions(kit() / "bin/brittle_tests_kernel", fs::perms::owner_all);
+    writeTests("echo '[ RUN      ] Fake.Passes'; echo '[  SKIPPED ] Fake.Passes (0 ms)'");
     const Outcome run = check({"--parts", "kernels"});
     const Json part = results()["parts"]["kernels"];
     EXPECT_EQ(part["status"], "skipped") << part;
     EXPECT_EQ(part["done"], 0) << part;
     EXPECT_NE(run.out.find("not wholly: kernels against their oracles (skipped)"), std::string::npos) << run.out;
+}
+
+TEST_F(CheckCli, FailsIfAProgramEndsBadlyBehindItsLastTest) {
+    for (const char* ending : {"kill -SEGV $$", "exit 1"}) {
+        writeTests("echo '[ RUN      ] Fake.Passes'; echo '[       OK ] Fake.Passes (0 ms)'; " + std::string(ending));
+        EXPECT_EQ(check({"--parts", "kernels"}).exit_code, 1) << ending;
+        const std::string reason = results()["parts"]["kernels"].value("reason", "");
+        EXPECT_NE(reason.find("ended badly behind its last test"), std::string::npos) << reason;
+    }
+}
+
+TEST_F(CheckCli, RunsAllTestsWhateverTheEnvironmentTellsGoogleTest) {
+    writeTests("echo '[ RUN      ] Fake.Passes'; [ -z \"$GTEST_BRIEF\" ] && echo '[       OK ] Fake.Passes (0 ms)'");
+    const Outcome run = support::runProgram("brittle", arguments({"--parts", "kernels"}), {"GTEST_BRIEF=1"});
+    EXPECT_EQ(results()["parts"]["kernels"]["status"], "passed") << run.out;
+}
+
+TEST_F(CheckCli, GoesOnAfterAHangupThatIsIgnoredAsByNohup) {
+    const std::string command = "trap '' HUP; '" BRITTLE_BINARY_DIR "/brittle' check-device --kit '" + kit().string() +
+                                "' -o '" + path("out") + "' --parts motion >/dev/null & sleep 0.2; kill -HUP $!; wait $!";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1); // recordings are missing
+    EXPECT_EQ(results()["ended"], true);
 }
 
 TEST_F(CheckCli, NamesAProgramWhoseTestsAreUnknown) {

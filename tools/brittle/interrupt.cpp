@@ -13,11 +13,17 @@ std::vector<std::filesystem::path> begun; // named after this process, so that w
 std::vector<std::filesystem::path> made;  // folders, the outermost first
 std::vector<std::function<void()>> actions;
 
+// Signals that are ignored when the program starts stay so: nohup wants that.
+bool isIgnored(int signal) {
+    struct sigaction action {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 sigset_t interrupts() {
     sigset_t set;
     sigemptyset(&set);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        sigaddset(&set, signal);
+        if (!isIgnored(signal)) sigaddset(&set, signal);
     return set;
 }
 

@@ -30,6 +30,7 @@ struct Options {
     bool once = false;  // each scene
     double scale = 1;   // of all time limits
     double seconds = 1; // of each scene
+    double spent = 0;   // s, of the time limit, before the check began
 };
 
 std::filesystem::path kitFolder(const Options& options) {
@@ -79,7 +80,7 @@ bool isWanted(const Options& options, const Part& part) {
 
 Json aboutProgram() { return {{"version", BRITTLE_VERSION}, {"commit", BRITTLE_COMMIT}, {"compiler", BRITTLE_COMPILER}}; }
 
-constexpr double kWholeCheck = 350, kWorthGoingOn = 10, kLongestWork = 3600; // s
+constexpr double kWholeCheck = 340, kWorthGoingOn = 10, kLongestWork = 3600; // s
 
 // The parts of one check, in order.
 class Check {
@@ -87,7 +88,7 @@ public:
     Check(const Options& options, std::filesystem::path scratch, std::filesystem::path cache)
         : options_(options), scratch_(std::move(scratch)),
           kit_(kitFolder(options), launcherOf(options), options.device, std::move(cache)),
-          expected_(kit_.expected(expected_problem_)), until_(inSeconds(kWholeCheck * options.scale)) {}
+          expected_(kit_.expected(expected_problem_)), until_(inSeconds((kWholeCheck - options.spent) * options.scale)) {}
 
     // The part about the device always runs: without a device nothing else can. Only then are files of an earlier check
     // replaced.
@@ -97,9 +98,9 @@ public:
         if (!first.contains("facts"))
             return fail({engine::ErrorCode::Device, "no device to check: " + first.value("reason", "it said nothing")});
         if (auto kept = keepEarlier(results); !kept) return fail(kept.error());
-        results.add(parts.front().name, first);
+        add(results, parts.front(), first);
         for (const Part& part : parts.subspan(1))
-            if (isWanted(options_, part)) results.add(part.name, runPart(part));
+            if (isWanted(options_, part)) add(results, part, runPart(part));
         for (const Part& part : parts)
             if (part.goes_on && isWanted(options_, part)) goOn(part, results);
         return hasFailed(results) ? kInternalError : kOk;
@@ -119,7 +120,8 @@ private:
     Json runPart(const Part& part) {
         showProgress(part.title);
         const auto start = Clock::now();
-        const auto until = std::min(inSeconds(part.limit_s * options_.scale), until_);
+        const double scale = part.name == std::string_view("device") ? std::max(options_.scale, 1.0) : options_.scale;
+        const auto until = std::min(inSeconds(part.limit_s * scale), until_);
         Json outcome = part.run({kit_, expected_, expected_problem_, facts_, scratch_, test_runs_, until});
         device_check::excuseFullDisk(outcome, scratch_);
         outcome["title"] = part.title;
@@ -141,6 +143,13 @@ private:
         Json outcome = runPart(more);
         outcome["seconds"] = outcome["seconds"].get<double>() + before["seconds"].get<double>();
         outcome["limit_s"] = outcome["limit_s"].get<double>() + before["limit_s"].get<double>();
+        add(results, part, outcome);
+    }
+
+    static void add(Results& results, const Part& part, const Json& outcome) {
+        Json parts = results.json()["parts"];
+        parts[part.name] = outcome;
+        results.json()["unchecked"] = device_check::uncheckedIn(parts);
         results.add(part.name, outcome);
     }
 
@@ -171,6 +180,8 @@ std::filesystem::path cacheIn(const std::filesystem::path& folder, Json& about) 
     const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     const std::filesystem::path cache = folder / (std::string("compiled") + (width != nullptr ? std::string("-") + width : ""));
     std::error_code failed;
+    about = "none, because compiled beside the results is no folder";
+    if (std::filesystem::exists(cache, failed) && !std::filesystem::is_directory(cache, failed)) return {};
     about = "filled by an earlier check";
     if (std::filesystem::is_directory(cache, failed) && !std::filesystem::is_empty(cache, failed)) return cache;
     about = "none, there is too little room on the disk";
@@ -183,11 +194,10 @@ std::filesystem::path cacheIn(const std::filesystem::path& folder, Json& about) 
 void sayEnd(Results& results, int code) {
     if (code == kDeviceError || code == kBadInput) return;
     results.json()["ended"] = true;
-    results.json()["unchecked"] = device_check::uncheckedIn(results.json()["parts"]);
     results.write();
     std::printf("results in %s%s\n", (results.folder() / "results.html").c_str(),
                 results.wasWritten() ? "" : ", as far as they could be written");
-    const auto unchecked = results.json()["unchecked"].get<std::string>();
+    const auto unchecked = results.json().value("unchecked", "");
     if (!unchecked.empty()) std::printf("%s\n", unchecked.c_str());
 }
 
@@ -295,6 +305,7 @@ void addCheckDevice(CLI::App& app, int& exit_code) {
         ->add_option("--write-expected", options->expect,
                      "write what this device gives to this file, for others to be held against")
         ->check(someText);
+    command->add_option("--spent", options->spent)->group("");
     command->add_flag("--once", options->once)->group("");
     command->add_option("--work", options->work)->group("")->check(CLI::IsMember({"facts", "models", "scenes", "idle"}));
     command->callback([options, &exit_code] {

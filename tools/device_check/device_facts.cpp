@@ -1,6 +1,7 @@
 #include "tools/device_check/device_facts.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,12 @@ Json extensionsOf(const engine::Device& device) {
     return names;
 }
 
+// BRITTLE_DEVICE_WITHOUT: optional features that the device has, and that are not used.
+std::string leftOut() {
+    const char* names = std::getenv("BRITTLE_DEVICE_WITHOUT");
+    return names == nullptr ? "" : names;
+}
+
 } // namespace
 
 uint32_t indexOf(const engine::Device& device) {
@@ -134,6 +141,7 @@ Json factsOf(const engine::Device& device) {
             {"subgroups", subgroupsOf(device)},
             {"queue_families", queuesOf(device)},
             {"features", featuresOf(device)},
+            {"opened_without", leftOut()},
             {"memory", memoryOf(device)},
             {"extensions", extensionsOf(device)}};
 }

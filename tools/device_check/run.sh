@@ -61,6 +61,7 @@ check_files() {
 # Sets `device` to what --device says, `output` and `results` to the folder for results without and with -o, `helps` if only help is
 # wanted, and `limit` to the seconds that a search for a device may take.
 limit=30
+spent=0 # s, on searches that hung
 read_options() {
   device= helps=false before= scale=1
   output=$kit
@@ -347,8 +348,8 @@ find_device() {
     search "$libraries_now"
     line=$(printf '%s\n' "$said" | box grep ': chosen')
     case $code in
-      hangs) hung="$hung${hung:+ and }$way" line= ;;
-      stuck) hung="$hung${hung:+ and }$way" line= is_stuck=true ;;
+      hangs) hung="$hung${hung:+ and }$way" line= spent=$((spent + limit)) ;;
+      stuck) hung="$hung${hung:+ and }$way" line= is_stuck=true spent=$((spent + limit)) ;;
       *) [ "$code" -le 128 ] || crashed="$crashed${crashed:+ and }signal $((code - 128)) with $way" line= ;;
     esac
     case $line in
@@ -363,16 +364,13 @@ find_device() {
   [ -z "$crashed" ] || complain "warning: the Vulkan driver crashes, $crashed"
 }
 
-# Returns 1 if the unpacked files are as they were packed. Else unpacks them again.
+# Unpacks again if a file is not as it was packed: a damaged test or model would look like a fault of the device.
 repair() {
-  [ -z "$hung" ] || return 1
-  case $said in *BRITTLE_DEVICE_WITHOUT* | *"no usable device matches"*) return 1 ;; esac
-  ! is_intact || return 1
+  ! is_intact || return 0
   complain "$programs/$damaged is damaged"
   box rm -f "$programs/complete" 2>/dev/null
   rejected=$programs
   unpack
-  choose_libraries
 }
 
 # Says why `brittle` does not run, if it does not.
@@ -417,18 +415,20 @@ check_files
 [ "$(box uname -m)" = x86_64 ] || give_up 4 "the programs are for x86-64, this machine is $(box uname -m)"
 read_options "$@"
 unpack
+$helps || repair
 choose_libraries
 if $helps; then
   chosen=$libraries
   printf '%s\n' "run.sh gives --kit, --loader and --library-path itself, and -o with this folder. The other options can be given:" "" 2>/dev/null
-elif find_device || { repair && find_device; }; then
+elif find_device; then
   printf '%s\n' "device: $found" 2>/dev/null
 else
   explain_no_device
 fi
 exec 5>&-
 if [ -n "$loader" ]; then
-  become_brittle "$chosen" check-device --kit "$programs" -o "$output" --loader "$loader" --library-path "$chosen:$machine_libraries" "$@"
+  become_brittle "$chosen" check-device --kit "$programs" -o "$output" --spent "$spent" \
+    --loader "$loader" --library-path "$chosen:$machine_libraries" "$@"
 else
-  become_brittle "$chosen" check-device --kit "$programs" -o "$output" "$@"
+  become_brittle "$chosen" check-device --kit "$programs" -o "$output" --spent "$spent" "$@"
 fi

@@ -18,10 +18,11 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
     return pointers;
 }
 
+// The settings of this process for GoogleTest are not those of the programs: they would leave out tests, or what tests print.
 std::vector<std::string> environmentWith(const std::vector<std::string>& settings) {
     std::vector<std::string> all;
     for (char** inherited = environ; *inherited != nullptr; ++inherited)
-        all.emplace_back(*inherited);
+        if (!std::string_view(*inherited).starts_with("GTEST_")) all.emplace_back(*inherited);
     for (const std::string& setting : settings) {
         const std::string name = setting.substr(0, setting.find('=') + 1);
         std::erase_if(all, [&](const std::string& known) { return known.starts_with(name); });

@@ -50,6 +50,7 @@ public:
         if (line.starts_with(kRuns)) {
             const auto found = tests_.find(std::string(line.substr(kRuns.size())));
             running_ = found == tests_.end() ? nullptr : found->second;
+            since_ = Clock::now();
             return;
         }
         if (running_ == nullptr) return;
@@ -58,9 +59,12 @@ public:
         if (running_->text.size() < kTextBytes) running_->text += std::string(line) + "\n";
     }
     TestOutcome* running() const { return running_; }
+    std::chrono::duration<double> runningFor() const { return Clock::now() - since_; }
+    bool hasFailures() const { return has_failures_; }
 
 private:
     void end(TestEnd how, std::string_view line) {
+        has_failures_ = has_failures_ || how == TestEnd::Failed;
         running_->end = how;
         running_->ms = msIn(line);
         if (how == TestEnd::Passed) running_->text.clear();
@@ -69,6 +73,8 @@ private:
 
     std::map<std::string, TestOutcome*>& tests_;
     TestOutcome* running_ = nullptr;
+    Clock::time_point since_;
+    bool has_failures_ = false;
 };
 
 std::string filterOf(const std::vector<TestOutcome*>& tests) {
@@ -78,15 +84,28 @@ std::string filterOf(const std::vector<TestOutcome*>& tests) {
     return filter;
 }
 
-// The test that was running when its process ended. Out of time is no fault of the test.
-void blame(TestOutcome& test, const ChildEnd& end) {
-    if (end.kind == ChildEnd::Kind::OutOfTime) return;
-    test.end = end.kind == ChildEnd::Kind::Silent ? TestEnd::Hung : TestEnd::Crashed;
+constexpr double kLongForATest = 0.3; // of the patience
+
+// The test that was running when its process ended. Out of time is no fault of a test that has just begun.
+void blame(const Listener& listener, const TestRunOptions& options, const ChildEnd& end) {
+    TestOutcome& test = *listener.running();
+    const bool is_late = end.kind == ChildEnd::Kind::OutOfTime, has_patience = options.patience.count() > 0;
+    if (is_late && !(has_patience && listener.runningFor() > kLongForATest * options.patience)) return;
+    test.end = is_late || end.kind == ChildEnd::Kind::Silent ? TestEnd::Hung : TestEnd::Crashed;
     test.text += end.reason + "\n" + end.errors;
 }
 
-// One process after another, until each of these tests has ended or the time has.
-void runAll(const Kit& kit, const TestRunOptions& options, std::vector<TestOutcome*> tests) {
+// What is wrong with the end of a process whose tests have all ended. Tests that fail or skip themselves have exit codes.
+std::string problemOf(const TestRunOptions& options, const Listener& listener, const ChildEnd& end) {
+    constexpr int kAllSkipped = 77;
+    if (listener.running() != nullptr || end.isGood() || end.kind == ChildEnd::Kind::OutOfTime) return "";
+    if (end.kind == ChildEnd::Kind::Exited && (end.code == kAllSkipped || (end.code == 1 && listener.hasFailures()))) return "";
+    return options.program + " ended badly behind its last test: " + end.reason;
+}
+
+// One process after another, until each of these tests has ended or the time has. Returns a problem, if there was one.
+std::string runAll(const Kit& kit, const TestRunOptions& options, std::vector<TestOutcome*> tests) {
+    std::string problem;
     std::map<std::string, TestOutcome*> by_name;
     for (TestOutcome* test : tests)
         by_name[test->name] = test;
@@ -96,15 +115,17 @@ void runAll(const Kit& kit, const TestRunOptions& options, std::vector<TestOutco
         command.patience = options.patience;
         Listener listener(by_name);
         const ChildEnd end = runChild(command, [&](std::string_view line) { listener.hear(line); });
-        if (listener.running() != nullptr) blame(*listener.running(), end);
+        if (listener.running() != nullptr) blame(listener, options, end);
         const size_t before = tests.size();
         std::erase_if(tests, [](const TestOutcome* test) { return test->end != TestEnd::NotRun; });
         if (tests.size() == before && end.kind != ChildEnd::Kind::OutOfTime) { // it does not even start
             tests.front()->end = TestEnd::Crashed;
             tests.front()->text = end.reason + "\n" + end.errors;
-            return;
+            return problem;
         }
+        if (problem.empty()) problem = problemOf(options, listener, end);
     }
+    return problem;
 }
 
 void listTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
@@ -155,9 +176,14 @@ void runTests(const Kit& kit, const TestRunOptions& options, TestRun& run) {
     size_t next = 0;
     for (TestOutcome& test : run.tests)
         if (test.end == TestEnd::NotRun) shares[next++ % shares.size()].push_back(&test);
-    std::vector<std::jthread> threads;
-    for (const auto& share : shares)
-        if (!share.empty()) threads.emplace_back([&] { runAll(kit, options, share); });
+    std::vector<std::string> problems(shares.size());
+    {
+        std::vector<std::jthread> threads;
+        for (size_t k = 0; k < shares.size(); ++k)
+            if (!shares[k].empty()) threads.emplace_back([&, k] { problems[k] = runAll(kit, options, shares[k]); });
+    }
+    for (const std::string& problem : problems)
+        if (run.problem.empty()) run.problem = problem;
 }
 
 Json toJson(const TestRun& run) {

@@ -29,7 +29,7 @@ struct TestRunOptions {
 
 struct TestRun {
     std::vector<TestOutcome> tests; // in the program's order; none if there was no time to list them
-    std::string problem;            // if the tests cannot be listed
+    std::string problem;            // if the tests cannot be listed, or a process ended badly behind its last test
 
     bool isComplete() const; // the tests are listed and all of them have ended
     size_t count(TestEnd end) const;

@@ -50,11 +50,13 @@ size_t equalWords(Bytes a, Bytes b) {
     return equal;
 }
 
+// The element that an element of A is compared with: the most like it, and of several the one at the same place.
 uint64_t partnerOf(uint64_t element, const ElementMatch& match, Bytes a, Bytes b, uint32_t size) {
     constexpr size_t kMostTried = 4096;
-    if (match.only_b.empty() || std::ranges::binary_search(match.only_b, element)) return element;
-    uint64_t best = match.only_b[0];
-    size_t most = 0;
+    if (match.only_b.empty()) return element;
+    const bool is_there = std::ranges::binary_search(match.only_b, element);
+    uint64_t best = is_there ? element : match.only_b[0];
+    size_t most = is_there ? equalWords(elementOf(a, element, size), elementOf(b, element, size)) : 0;
     for (size_t k = 0; k < std::min(match.only_b.size(), kMostTried); ++k) {
         const size_t equal = equalWords(elementOf(a, element, size), elementOf(b, match.only_b[k], size));
         if (equal <= most) continue;

@@ -176,6 +176,13 @@ private:
             row.kind = kindByHashes(id);
         else if (!classify({contentsOf(recorded, first)}, {first, &second}, row))
             return;
+        // A recording holds only what a pass changed. If elements changed places earlier, the rest of them is taken from
+        // others.
+        if (row.kind == DifferenceKind::Differs && kindByHashes(id) == DifferenceKind::Reordered) {
+            row.kind = DifferenceKind::Reordered;
+            row.differing = 0;
+            row.first.reset();
+        }
         if (row.kind == DifferenceKind::Differs && !isStable(id)) row.kind = DifferenceKind::Unstable;
         found_.rows.push_back(std::move(row));
     }

@@ -164,8 +164,9 @@ void keepFirstRows(StepComparison& comparison) {
 }
 
 bool isUnordered(const CapturedBuffer& buffer) {
-    // `polygons` name their pairs by places in a list that lanes fill.
-    constexpr std::string_view kLists[] = {"found_pairs", "long_lists", "waiting", "contact_slots", "cap_slots", "polygons"};
+    // `polygons` name their pairs, and `adjacency` contacts, by places in a list that lanes fill.
+    constexpr std::string_view kLists[] = {"found_pairs",   "long_lists", "waiting",   "listed",
+                                           "contact_slots", "adjacency",  "cap_slots", "polygons"};
     const bool is_hash_table = buffer.slot.ends_with("_table");
     return is_hash_table || buffer.slot.starts_with("loose_") || buffer.slot.find("cursor") != std::string::npos ||
            std::ranges::find(kLists, buffer.slot) != std::end(kLists);
