@@ -137,7 +137,7 @@ void measureSweep(uint c) {
     solver_contacts[c].lacks = done;
 }
 
-// A power of two that makes whole numbers up to 2^20 of what is at most this large: 1024 of them fit into 32 bits; 0 for what is tiny.
+// A power of two that scales values of at most this size to whole numbers up to 2^20: a sum of 1024 fits into 32 bits. 0 if all are tiny.
 float perUnit(uint most) {
     uint exponent = most >> 23;
     return exponent > 20u && exponent < 255u ? uintBitsToFloat((273u - exponent) << 23) : 0.0;
@@ -185,7 +185,7 @@ void repeatChanges(uint lane, uvec2 range, float times) {
     }
 }
 
-// Tells whether little is left to be done. If not, and if `repeats`, makes the change of the last sweep more often.
+// Returns whether little is left to be done. If not, and if `repeats`, makes the change of the last sweep more often.
 bool isDone(uint lane, uvec2 range, bool repeats) {
     vec4 done = doneBy(lane, range);
     float times = done[SWEEP_LOSS] > 0.0 ? clamp(done[SWEEP_GAIN] / done[SWEEP_LOSS], 0.0, uintBitsToFloat(least_times)) : 0.0;

@@ -188,6 +188,7 @@ void solveSubstep(uint lane, uvec2 range, uint first, uint substep, uint turns, 
     }
     uint end = strikes ? range.y : range.x;
     for (uint c = range.x + lane; c < end; c += LANES) forgetBlow(c);
+    sync(); // bodies are pushed by what contacts keep
 }
 
 // The other dispatches of this step have as many workgroups as this one.

@@ -180,7 +180,7 @@ std::filesystem::path cacheIn(const std::filesystem::path& folder, Json& about) 
     const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     const std::filesystem::path cache = folder / (std::string("compiled") + (width != nullptr ? std::string("-") + width : ""));
     std::error_code failed;
-    about = "none, because compiled beside the results is no folder";
+    about = "none, because compiled beside the results is not a folder";
     if (std::filesystem::exists(cache, failed) && !std::filesystem::is_directory(cache, failed)) return {};
     about = "filled by an earlier check";
     if (std::filesystem::is_directory(cache, failed) && !std::filesystem::is_empty(cache, failed)) return cache;

@@ -95,7 +95,8 @@ void blame(const Listener& listener, const TestRunOptions& options, const ChildE
     test.text += end.reason + "\n" + end.errors;
 }
 
-// What is wrong with the end of a process whose tests have all ended. Tests that fail or skip themselves have exit codes.
+// Describes a bad end of a process whose tests have all ended. Tests that fail, and tests that all skip themselves, give exit
+// codes.
 std::string problemOf(const TestRunOptions& options, const Listener& listener, const ChildEnd& end) {
     constexpr int kAllSkipped = 77;
     if (listener.running() != nullptr || end.isGood() || end.kind == ChildEnd::Kind::OutOfTime) return "";
