@@ -41,6 +41,9 @@ device_test(motion_with_subgroups_of_4 ${CMAKE_CURRENT_SOURCE_DIR}/device/motion
     ${CMAKE_CURRENT_SOURCE_DIR}/device/many_blows.toml hard_35_dropped_100 hard_18_implosion hull_pile_100 hard_38_cradle_touching
     ${PROJECT_SOURCE_DIR}/modules/brittle/scene/examples/window_pane.toml)
 
+device_test(compare_with_subgroups_of_4 ${CMAKE_CURRENT_SOURCE_DIR}/device/compare_with_subgroups.sh ${CMAKE_BINARY_DIR}
+    card_house hull_pile_100)
+
 device_test(device_kit_scripts ${CMAKE_CURRENT_SOURCE_DIR}/device/kit_scripts.sh ${CMAKE_BINARY_DIR}/kit-scripts)
 
 device_test(planted_constants ${CMAKE_CURRENT_SOURCE_DIR}/device/planted_constants.sh ${CMAKE_BINARY_DIR} ${GLSLANG} ${SPIRV_OPT})

@@ -85,6 +85,13 @@ TEST_F(TestRuns, WhatTheTimeDoesNotAllowHasNotRunAndCanRunLater) {
     EXPECT_EQ(result.count(TestEnd::NotRun), 0u);
 }
 
+TEST_F(TestRuns, ATestThatHasTakenLongWhenTheTimeEndsHangs) {
+    const TestRun result = run(std::chrono::milliseconds(5000), std::chrono::seconds(10), 1);
+    EXPECT_EQ(endOf(result, "Fake.Hangs"), TestEnd::Hung);
+    EXPECT_EQ(endOf(result, "Fake.Fails"), TestEnd::NotRun);
+    EXPECT_FALSE(result.isGood());
+}
+
 TEST_F(TestRuns, AProgramThatDoesNotStartIsAProblemWithAReason) {
     TestRun result;
     const Kit kit(folder(), {}, "");
