@@ -79,10 +79,11 @@ float ratioOf(uvec2 ids) {
 }
 
 // A body that is so much heavier than what it comes to needs its substeps in the step in which it comes.
-const float kMuchHeavier = 4.0;
+// In the soft solver a cube twice as wide counts, and less does not: stones of one heap are left alone.
+float muchHeavier() { return push_.heaps_too != 0u ? 4.0 : 7.5; }
 
 bool may_hurry; // false for a heap
-bool comesHeavy(uint c, float ratio) { return may_hurry && most_load != 0u && ratio > kMuchHeavier && loadOf(c) == 0.0; }
+bool comesHeavy(uint c, float ratio) { return may_hurry && most_load != 0u && ratio > muchHeavier() && loadOf(c) == 0.0; }
 
 // In weights of the lighter body.
 float weightsOn(uint c, float g, float height) {

@@ -26,7 +26,7 @@ bool needsSweeps(uint lane, uvec2 range) {
     if (lane == 0u) is_uneven = push_.heaps_too;
     barrier();
     for (uint c = range.x + lane; c < range.y; c += LANES)
-        if (ratioOf(solver_contacts[c].ids.xy) > kMuchHeavier) is_uneven = 1u;
+        if (ratioOf(solver_contacts[c].ids.xy) > muchHeavier()) is_uneven = 1u;
     barrier();
     return is_uneven != 0u && !rubs_in_push && range.y - range.x > 1u;
 }
@@ -70,7 +70,7 @@ void noteStrike(uint body, uint other, bool is_blow, uint stamp) {
     float inverse = solver_bodies[body].velocity.w;
     if (inverse == 0.0) return;
     float others = solver_bodies[other].velocity.w;
-    if (sweeps_on && others > 0.0 && inverse > kMuchHeavier * others) struck = 1u;
+    if (sweeps_on && others > 0.0 && inverse > muchHeavier() * others) struck = 1u;
     if (is_blow && atomicExchange(heights[body], stamp) == stamp) struck = 1u;
 }
 
