@@ -170,7 +170,7 @@ write_expected() {
   "$bin/brittle" check-device --kit "$kit" --write-expected "$kit/expected.json"
 }
 
-# run.sh reads these if `brittle` does not start.
+# run.sh compares the unpacked files with these before each check.
 write_checksums() {
   local sums
   sums=$(cd "$kit" && find . -xtype f -printf '%P\0' | sort -z | xargs -0 md5sum)

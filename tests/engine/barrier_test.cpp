@@ -135,7 +135,8 @@ TEST(Barriers, ForgetThePastRecording) {
 // The layer would see a barrier that is missing (Debian 12's does between a writer and a reader, not between two updates):
 // two recorders that do not know of each other share a command buffer.
 TEST(Barriers, AreMissedBySynchronizationValidation) {
-    if (!synchronizationValidationIsWanted()) GTEST_SKIP() << "without synchronization validation nobody would notice";
+    if (!synchronizationValidationIsWanted())
+        GTEST_SKIP() << "without synchronization validation the layer does not look for missing barriers";
     ASSERT_TRUE(synchronizationValidationIsOn()) << "the layer is asked for, but not installed";
     expectValidationMessages(1);
     Recording r;
@@ -147,7 +148,8 @@ TEST(Barriers, AreMissedBySynchronizationValidation) {
 
 // A kernel that writes a buffer and declares that it only reads it gets no barrier, which the layer notices.
 TEST(Barriers, AreMissingAfterAKernelWhoseWriteIsNotDeclared) {
-    if (!synchronizationValidationIsWanted()) GTEST_SKIP() << "without synchronization validation nobody would notice";
+    if (!synchronizationValidationIsWanted())
+        GTEST_SKIP() << "without synchronization validation the layer does not look for missing barriers";
     ASSERT_TRUE(synchronizationValidationIsOn()) << "the layer is asked for, but not installed";
     expectValidationMessages(1);
     Recording r;

@@ -35,11 +35,12 @@ std::vector<uint32_t> countingFrom(uint32_t first, size_t count);
 
 // Submits, waits, and fails the running test with the message where that goes wrong.
 void finish(engine::Commands& commands);
-// Whether the environment asks for validation, whether the layer is also there, and how many of its messages the running test
-// means to cause.
+// Each of the first two returns whether the environment asks for this validation; the third, whether the layer is installed,
+// too.
 bool validationIsOn();
 bool synchronizationValidationIsWanted();
 bool synchronizationValidationIsOn();
+// Sets how many messages of the layer the running test means to cause.
 void expectValidationMessages(uint32_t count);
 
 } // namespace engine_test

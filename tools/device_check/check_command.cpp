@@ -98,9 +98,9 @@ public:
         if (!first.contains("facts"))
             return fail({engine::ErrorCode::Device, "no device to check: " + first.value("reason", "it said nothing")});
         if (auto kept = keepEarlier(results); !kept) return fail(kept.error());
-        add(results, parts.front(), first);
+        results.add(parts.front().name, first);
         for (const Part& part : parts.subspan(1))
-            if (isWanted(options_, part)) add(results, part, runPart(part));
+            if (isWanted(options_, part)) results.add(part.name, runPart(part));
         for (const Part& part : parts)
             if (part.goes_on && isWanted(options_, part)) goOn(part, results);
         return hasFailed(results) ? kInternalError : kOk;
@@ -143,13 +143,6 @@ private:
         Json outcome = runPart(more);
         outcome["seconds"] = outcome["seconds"].get<double>() + before["seconds"].get<double>();
         outcome["limit_s"] = outcome["limit_s"].get<double>() + before["limit_s"].get<double>();
-        add(results, part, outcome);
-    }
-
-    static void add(Results& results, const Part& part, const Json& outcome) {
-        Json parts = results.json()["parts"];
-        parts[part.name] = outcome;
-        results.json()["unchecked"] = device_check::uncheckedIn(parts);
         results.add(part.name, outcome);
     }
 

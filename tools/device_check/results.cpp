@@ -1,6 +1,7 @@
 #include "tools/device_check/results.h"
 
 #include "tools/brittle/interrupt.h"
+#include "tools/device_check/check_summary.h"
 
 #include <cstdio>
 
@@ -32,6 +33,7 @@ bool keepAs(const std::filesystem::path& file, const std::filesystem::path& name
 
 void Results::add(const std::string& name, const Json& outcome) {
     json_["parts"][name] = outcome;
+    json_["unchecked"] = uncheckedIn(json_["parts"]);
     write();
 }
 

@@ -19,7 +19,8 @@ public:
         : folder_(std::move(folder)), hidden_(std::move(hidden)) {}
 
     Json& json() { return json_; }
-    // Adds a part's outcome, or replaces it if there is one of that name, and writes both files.
+    // Adds a part's outcome, or replaces it if there is one of that name, and writes both files. They name what is unchecked by
+    // then.
     void add(const std::string& name, const Json& outcome);
     // Writes both files beside their places and moves them there, so that an interrupted write leaves the earlier ones whole.
     // If a file cannot be written, one line on standard error says why, once for each file; the check goes on.
@@ -27,7 +28,7 @@ public:
     bool wasWritten() const { return written_; }
     const std::filesystem::path& folder() const { return folder_; }
 
-    // Copies the files of an earlier check to names with the next free number, results.json.1. Returns these names.
+    // Gives the files of an earlier check a second name with the next free number, results.json.1. Returns these names.
     // Errors: BadInput if a copy cannot be written.
     engine::Result<std::vector<std::string>> keepEarlier();
 
@@ -42,8 +43,8 @@ private:
     bool told_json_ = false, told_page_ = false;
 };
 
-// Returns JSON text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character, are
-// replaced.
+// Returns JSON text on one line, or with `indent` spaces per level. Bytes that are no UTF-8, as of messages cut in a character,
+// are replaced.
 std::string textOf(const Json& json, int indent = -1);
 
 // One self-contained page with tables and plots of these results, which are JSON text.

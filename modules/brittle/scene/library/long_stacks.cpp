@@ -37,29 +37,18 @@ std::vector<Double3> cylinder(double radius, double height, uint32_t sides) {
     return points;
 }
 
-SceneDescription heavyAndLight(double gap, uint32_t ratio, const std::string& how) {
+// `gap`: between the cubes, in edges.
+SceneDescription heavyAndLight(double edge, double gap, uint32_t ratio, const std::string& how) {
     SceneDescription scene = newScene(
         "A cube of " + std::to_string(ratio) + " kg " + how +
             " one of 1 kg.\nPasses: after 10 s the heavy one is within 1 % of an edge of its place, upright and at rest.",
-        4);
+        4 * edge);
     scene.gravity = {0, -9.81, 0};
     scene.step.steps = 600;
     addGround(scene);
-    addBox(scene, {1, 1, 1}, {0, 0.5, 0}).mass = 1;
-    addBox(scene, {1, 1, 1}, {0, 1.5 + gap, 0}).mass = ratio;
+    addBox(scene, {edge, edge, edge}, {0, 0.5 * edge, 0}).mass = 1;
+    addBox(scene, {edge, edge, edge}, {0, (1.5 + gap) * edge, 0}).mass = ratio;
     return scene;
-}
-
-// Lengths alone: steps and masses stay.
-void scaleCubes(SceneDescription& scene, double times) {
-    for (BodyDescription& body : scene.bodies)
-        for (size_t axis = 0; axis < 3; ++axis) {
-            body.shape.size[axis] *= times;
-            body.place[axis] *= times;
-        }
-    for (Double3* point : {&scene.camera.eye, &scene.camera.target})
-        for (double& x : *point)
-            x *= times;
 }
 
 } // namespace
@@ -80,7 +69,7 @@ SceneDescription tallStack(uint32_t number) {
     return scene;
 }
 
-SceneDescription heavyDropped(uint32_t ratio) { return heavyAndLight(0.1, ratio, "falls by 0.1 m onto"); }
+SceneDescription heavyDropped(uint32_t ratio) { return heavyAndLight(1, 0.1, ratio, "falls by 0.1 m onto"); }
 
 SceneDescription heavyDroppedHard(uint32_t ratio) {
     SceneDescription scene = heavyDropped(ratio);
@@ -89,18 +78,12 @@ SceneDescription heavyDroppedHard(uint32_t ratio) {
 }
 
 SceneDescription smallHeavyDropped(uint32_t ratio) {
-    SceneDescription scene = heavyAndLight(3, ratio, "falls by three edges of 10 cm onto");
-    scaleCubes(scene, 0.1);
-    return scene;
+    return heavyAndLight(0.1, 3, ratio, "falls by three edges of 10 cm onto");
 }
 
-SceneDescription largeHeavyDropped(uint32_t ratio) {
-    SceneDescription scene = heavyAndLight(0.3, ratio, "falls by 3 m, 0.3 edges, onto");
-    scaleCubes(scene, 10);
-    return scene;
-}
+SceneDescription largeHeavyDropped(uint32_t ratio) { return heavyAndLight(10, 0.3, ratio, "falls by 3 m, 0.3 edges, onto"); }
 
-SceneDescription heavyPlaced(uint32_t ratio) { return heavyAndLight(0, ratio, "lies on"); }
+SceneDescription heavyPlaced(uint32_t ratio) { return heavyAndLight(1, 0, ratio, "lies on"); }
 
 SceneDescription heavyCylinderDropped(uint32_t ratio) {
     SceneDescription scene = heavyDropped(ratio);
