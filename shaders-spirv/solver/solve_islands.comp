@@ -34,7 +34,9 @@ UPDATES(9, SolverBody, solver_bodies);
 UPDATES(10, BodyState, bodies);
 UPDATES(11, vec4, spins);
 UPDATES(12, uint, heights);
-UPDATES(13, uint, members); // of each island: how many bodies move, substeps made in this step, and those bodies
+// Of each island: how many bodies move, substeps made in this step, and those bodies, at most one more than it has contacts. Its words begin
+// at four times its first contact: islands have no order, and their ranges have another.
+UPDATES(13, uint, members);
 UPDATES(14, uint, args);    // of dispatches; those of COUNT_UNFINISHED hold no workgroups when a step begins
 layout(push_constant) uniform Push { PacePush push_; };
 
@@ -201,7 +203,7 @@ void main() {
     uint lane = gl_LocalInvocationID.x, group = flatGroup();
     if (group >= color_start[ISLANDS_APART] || counts[STATUS_FAILED] != 0u) return;
     uvec2 range = island_ranges[group];
-    uint first = range.x + 3u * group + 2u; // the number of bodies and of substeps made stand before
+    uint first = 4u * range.x + 2u; // the number of bodies and of substeps made stand before
     bool begins = push_.part == 0u;
     if (!begins && members[first - 1u] >= solver_contacts[range.x].pace.y) return;
     if (lane == 0u) {
