@@ -1,4 +1,4 @@
-// Small islands, a workgroup each: all substeps of a step, as many as the island calls for (lib/pace.glsl). A substep begins with
+// Small islands, a workgroup each: all substeps of a step, as many as the island needs (lib/pace.glsl). A substep begins with
 // gravity and the impulses of the one before, goes through all colors with push, moves the bodies, and goes through all colors
 // again without. Few lanes where they run in turn: a color seldom has work for many.
 //
@@ -34,7 +34,7 @@ UPDATES(9, SolverBody, solver_bodies);
 UPDATES(10, BodyState, bodies);
 UPDATES(11, vec4, spins);
 UPDATES(12, uint, heights);
-// Of each island: how many bodies move, substeps made in this step, and those bodies, at most one more than it has contacts. Its words begin
+// Each island has here how many bodies move, substeps made in this step, and those bodies, at most one more than contacts. Its words begin
 // at four times its first contact: islands have no order, and their ranges have another.
 UPDATES(13, uint, members);
 UPDATES(14, uint, args);    // of dispatches; those of COUNT_UNFINISHED hold no workgroups when a step begins
