@@ -16,7 +16,7 @@
 #include "shared/solver.h"
 #include "shared/strike.h"
 
-// Built twice: STRIKES is the step in which a host strikes by hand.
+// Built twice: STRIKES is for worlds that a host has struck by hand.
 #ifndef STRIKES
 #define STRIKES 0
 #endif
@@ -37,7 +37,7 @@ UPDATES(11, uint, counts); // of the event
 UPDATES(12, uint, args);
 READS(13, SceneVertex, vertices);
 #if STRIKES
-READS(14, StrikeRecord, records);
+UPDATES(14, StrikeRecord, records);
 #endif
 layout(push_constant) uniform Push {
     uint most_bodies, most_triangles, most_sites; // of one step
@@ -102,7 +102,10 @@ void listBroken(uint lane) {
 BlowRecord blowOf(uint body) {
     uint pair = chosen[body];
 #if STRIKES
-    if (isByHand(pair)) return BlowRecord(uvec4(BREAKS_A, 0u, 0u, 0u), records[body].blow, vec4(records[body].arm.xyz, 0.0), vec4(0.0), vec4(records[body].along.xyz, 0.0));
+    if (isByHand(pair)) {
+        vec3 arm = turned(bodies[body].turn, records[body].arm.xyz), along = turned(bodies[body].turn, records[body].along.xyz);
+        return BlowRecord(uvec4(BREAKS_A, 0u, 0u, 0u), records[body].blow, vec4(arm, 0.0), vec4(0.0), vec4(along, 0.0));
+    }
 #endif
     return blows[pair];
 }
@@ -382,5 +385,8 @@ void main() {
         if (admitted[k] == NO_INDEX) continue;
         Rays rays = isRadial(listed[k]) ? raysOf(k, listed[k], most_fragments) : Rays(0u, 0u, 0.0, 0.0);
         setBroken(admitted[k], listed[k], sites_of[k], paid_of[k], rays);
+#if STRIKES
+        records[listed[k]].what.x = 0u; // another blow that broke it first is as good
+#endif
     }
 }

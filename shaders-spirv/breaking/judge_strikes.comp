@@ -1,6 +1,6 @@
 // Which bodies are broken by hand: judged as every blow is, by stress and by energy, as if the body had met, at the nearest place of
 // it, a ball of the strike's radius that is as dense as the body and does not give way, so fast that this is the blow's energy. The
-// hardest that breaks it counts. A body that breaks is awake.
+// hardest that breaks it counts, one of an earlier step that still waits included. A body that breaks is awake.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -28,9 +28,10 @@ READS(10, uint, steps);
 READS(11, Strike, strikes);
 READS(12, uint, claims);
 READS(13, uint, reached);
-WRITES(14, StrikeRecord, records);
+UPDATES(14, StrikeRecord, records);
 layout(push_constant) uniform Push { uint count; float duration; };
 #include "lib/nearest_place.glsl"
+#include "lib/origin.glsl"
 
 // From the place to what strikes it; where that is the same, away from the middle.
 vec3 outward(vec3 strike, vec3 place, vec3 middle) {
@@ -54,10 +55,10 @@ float effectiveMass(uint body, vec3 arm, vec3 along, float radius) {
 StrikeRecord recordOf(uint body, uint k) {
     HullRecord hull = hulls[pieces[claims[body * uint(MOST_STRIKES) + k]].ids.x];
     vec3 strike = strikeIn(bodies[body], strikes[k]), place = nearestOnHull(hull, strike);
-    vec3 along = turned(bodies[body].turn, outward(strike, place, hull.center.xyz)), arm = turned(bodies[body].turn, place);
+    vec3 toward = outward(strike, place, hull.center.xyz), along = turned(bodies[body].turn, toward), arm = turned(bodies[body].turn, place);
     float mass = effectiveMass(body, arm, along, strikes[k].offset.w), energy = strikes[k].energy.x / float(max(reached[k], 1u));
-    return StrikeRecord(uvec4(1u, k, 0u, 0u), vec4(mass, sqrt(2.0 * energy / mass), energy, 0.0), vec4(arm, strikes[k].offset.w),
-                        vec4(along, 0.0));
+    return StrikeRecord(uvec4(1u, k, bornIn(body), 0u), vec4(mass, sqrt(2.0 * energy / mass), energy, 0.0),
+                        vec4(place, strikes[k].offset.w), vec4(toward, 0.0));
 }
 
 bool breaksBody(uint body, StrikeRecord record) {
@@ -69,7 +70,8 @@ bool breaksBody(uint body, StrikeRecord record) {
 void main() {
     uint body = flatIndex();
     if (body >= counts[COUNT_BODIES]) return;
-    StrikeRecord hardest = StrikeRecord(uvec4(0u), vec4(0.0), vec4(0.0), vec4(0.0));
+    StrikeRecord waits = records[body], hardest = StrikeRecord(uvec4(0u), vec4(0.0), vec4(0.0), vec4(0.0));
+    if (waits.what.x != 0u && waits.what.z == bornIn(body)) hardest = waits;
     bool rests = float(steps[STEPS_MADE]) * duration < breakable[body].form.w;
     for (uint k = 0u; k < min(count, uint(MOST_STRIKES)); k++) {
         if (rests || claims[body * uint(MOST_STRIKES) + k] == NO_INDEX) continue;

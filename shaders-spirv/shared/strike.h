@@ -18,12 +18,12 @@ struct Strike {
     vec4 energy; // J, of all that are struck together
 };
 
-// What became of it, of every slot of a body: the hardest that breaks it.
+// The hardest blow by hand that breaks the body of a slot. It waits here while a step has no room for what the body breaks into.
 struct StrikeRecord {
-    uvec4 what; // 1 where one does
+    uvec4 what; // 1 if there is one; which strike of its step it was; the step in which the body was made (bornIn)
     vec4 blow;  // effective mass, speed of meeting, its energy, 0
-    vec4 arm;   // of the place that is struck; w: radius
-    vec4 along; // from the body to what strikes it
+    vec4 arm;   // from the center of mass to the place that is struck, own axes; w: radius, m
+    vec4 along; // from the body to what strikes it, own axes
 };
 
 GPU_NAMESPACE_END

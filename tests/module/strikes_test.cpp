@@ -162,4 +162,88 @@ TEST(SmallStrikes, WakeWhatRestedOnABodyThatBreaks) {
     EXPECT_LT((*world->bodies())[1].velocity.w, 0.1f) << "it counts again how long it has hardly moved";
 }
 
+// A row of cubes without contact, and one blow that reaches all of them.
+struct StruckRow {
+    std::unique_ptr<brittle::World> world;
+    uint32_t count;
+    std::vector<gpu::BreakEvent> told;
+
+    StruckRow(uint32_t cubes, uint32_t at_once, const std::array<double, 3>& spin = {0, 0, 0}) : count(cubes) {
+        std::vector<BodyDescription> bodies;
+        for (uint32_t k = 0; k < cubes; ++k) {
+            bodies.push_back(block(Vector3d::Constant(0.2), {0.4 * k, 0, 0}));
+            bodies.back().spin = spin;
+        }
+        brittle::SceneDescription scene = sceneOf(std::move(bodies), false);
+        scene.effects = {"contacts", "impact_fracture", "events"};
+        brittle::WorldBudget budget;
+        budget.breaking.step_bodies = at_once;
+        budget.breaking.most_fragments = at_once != 0 ? 20 : 0; // so that the world has room for all
+        world = worldOf(scene, budget);
+    }
+    void strike(double energy_of_each) const {
+        EXPECT_TRUE(world->strike({{0.2 * (count - 1), 0.11, 0}, 4, energy_of_each * count}));
+    }
+    size_t step() {
+        const size_t before = told.size();
+        breaking_scenes::step(*world);
+        const auto breaks = world->breaks();
+        EXPECT_TRUE(breaks);
+        told.insert(told.end(), breaks->events.begin(), breaks->events.end());
+        return told.size() - before;
+    }
+};
+
+TEST(Strikes, ReachBodiesForWhichAStepHasNoRoomInTheStepsAfter) {
+    StruckRow row(7, 2);
+    row.strike(400);
+    const size_t in_order[] = {2, 2, 2, 1, 0, 0};
+    for (const size_t expected : in_order)
+        EXPECT_EQ(row.step(), expected);
+    std::vector<uint32_t> broken;
+    for (const gpu::BreakEvent& event : row.told) {
+        broken.push_back(event.what.y);
+        EXPECT_EQ(event.what.z, uint32_t{NO_INDEX}) << "by hand";
+        EXPECT_GT(event.made.x, 1u);
+        EXPECT_NEAR(event.blow.x * event.blow.y * event.blow.y / 2, 400, 0.01);
+    }
+    EXPECT_EQ(broken, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6}));
+}
+
+// 3000 J ask for more pieces of three cubes than a step makes.
+TEST(Strikes, BreakAllTheyReachWithTheDefaultBudgets) {
+    StruckRow row(3, 0);
+    row.strike(3000);
+    for (uint32_t k = 0; k < 4; ++k)
+        row.step();
+    EXPECT_EQ(row.told.size(), 3u);
+}
+
+// The last cubes wait for several steps, and turn meanwhile. What is told stands where the body is when its step has ended.
+TEST(Strikes, ThatWaitStayAtThePlaceOfTheBodyThatTheyHit) {
+    StruckRow still(4, 1), turning(4, 1, {0, 0, 9});
+    for (StruckRow* row : {&still, &turning}) {
+        row->strike(400);
+        for (uint32_t k = 0; k < 5; ++k)
+            row->step();
+        ASSERT_EQ(row->told.size(), 4u);
+    }
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Vector3d middle(0.4 * k, 0, 0), arm = placeOf(still.told[k]) - middle;
+        const Vector3d turned = Eigen::AngleAxisd(9 * (k + 1) / 60.0, Vector3d::UnitZ()) * arm;
+        EXPECT_LT((placeOf(turning.told[k]) - middle - turned).norm(), 1e-4) << k;
+    }
+}
+
+TEST(Strikes, ThatWaitAreNotSaved) {
+    StruckRow row(3, 1);
+    row.strike(400);
+    EXPECT_EQ(row.step(), 1u);
+    const auto state = row.world->save();
+    ASSERT_TRUE(state);
+    EXPECT_EQ(row.step(), 1u);
+    ASSERT_TRUE(row.world->restore(*state));
+    EXPECT_EQ(row.step() + row.step(), 0u);
+}
+
 } // namespace

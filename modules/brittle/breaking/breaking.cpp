@@ -45,18 +45,20 @@ public:
         return fill(contents);
     }
 
-    // What it needs is made when somebody first strikes.
-    Result<void> recordStrikes(const Step& s, std::span<const HandBlow> blows) override {
-        if (!strikes_) {
-            auto made = Strikes::create(device_, sizes_.bodies, room_.pools.capacity[POOL_PIECES]);
-            if (!made) return made.error();
-            strikes_ = std::move(*made);
-        }
-        strikes_->recordJudging(s, l_, blows);
+    Result<void> makeStrikes() override {
+        auto made = Strikes::create(device_, sizes_.bodies, room_.pools.capacity[POOL_PIECES]);
+        if (!made) return made.error();
+        strikes_ = std::move(*made);
         return {};
     }
+    bool hasStrikes() const override { return strikes_ != nullptr; }
+    std::unique_ptr<Strikes> handOverStrikes() override { return std::move(strikes_); }
+    void takeOverStrikes(std::unique_ptr<Strikes> strikes) override { strikes_ = std::move(strikes); }
+    Result<void> forgetStrikes() override { return strikes_ ? strikes_->forget() : Result<void>(); }
 
-    Result<void> recordBlows(const Step& s, bool struck) override {
+    void recordStrikes(const Step& s, std::span<const HandBlow> blows) override { strikes_->recordJudging(s, l_, blows); }
+
+    Result<void> recordBlows(const Step& s) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("blows");
         s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
@@ -67,7 +69,7 @@ public:
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
                       s.b.steps, p_.blows, p_.turning, s.b.shapes});
         if (auto recorded = recordTurning(s, l_, p_); !recorded) return recorded;
-        if (struck) strikes_->recordRaising(s, p_);
+        if (strikes_) strikes_->recordRaising(s, l_, p_);
         const uint32_t publish[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
         s.record.runGroups("publish_if", 1, publish, {world, s.record.args()});
         recordOrder(s);
@@ -78,12 +80,12 @@ public:
         s.record.run("leave_unmet", Length::counted(COUNT_STRUCK), meeting,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.shares, p_.blows, p_.chosen,
                       s.b.step.touches});
-        if (struck) strikes_->recordChoice(s, p_);
+        if (strikes_) strikes_->recordChoice(s, p_);
         s.record.commands().endLabel();
         return {};
     }
 
-    void recordAdmission(const Step& s, bool struck) override {
+    void recordAdmission(const Step& s) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("admission");
         const auto orAll = [](uint32_t room) { return room != 0 ? room : NO_INDEX; };
@@ -100,7 +102,7 @@ public:
                    static_cast<float>(s.settings.dt),
                    static_cast<float>(contactMargin(s.settings)),
                    kPause};
-        if (struck)
+        if (strikes_)
             s.record.runGroups("admit_strikes", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
                                 l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,

@@ -25,13 +25,22 @@ public:
                                                             const WorldSizes& world, uint32_t group_size);
     virtual ~Breaking() = default;
 
-    // Of a step in which a host strikes by hand: whom, before it is decided who sleeps. `struck`, of what follows: whether that
-    // has been recorded.
-    virtual engine::Result<void> recordStrikes(const Step& step, std::span<const HandBlow> blows) = 0;
-    virtual engine::Result<void> recordBlows(const Step& step, bool struck) = 0;
+    // Blows by hand: none before a host strikes for the first time. What is recorded from then on has them, so all steps have
+    // to be recorded anew. Errors: Capacity, Device.
+    virtual engine::Result<void> makeStrikes() = 0;
+    virtual bool hasStrikes() const = 0;
+    // To a world of the same bodies that takes the place of this one.
+    virtual std::unique_ptr<Strikes> handOverStrikes() = 0;
+    virtual void takeOverStrikes(std::unique_ptr<Strikes> strikes) = 0;
+    // Blows that wait are forgotten. Errors: Device.
+    virtual engine::Result<void> forgetStrikes() = 0;
+
+    // Of a step in which a host strikes by hand: whom, before it is decided who sleeps. Needs makeStrikes.
+    virtual void recordStrikes(const Step& step, std::span<const HandBlow> blows) = 0;
+    virtual engine::Result<void> recordBlows(const Step& step) = 0;
     // Who breaks, once nothing can fail any more that the step needs: a step that is not made breaks nothing. Bodies stand as
     // they did when it began.
-    virtual void recordAdmission(const Step& step, bool struck) = 0;
+    virtual void recordAdmission(const Step& step) = 0;
     virtual engine::Result<void> recordEvent(const Step& step) = 0;
 
     // Since `heard`, which is brought up to now.

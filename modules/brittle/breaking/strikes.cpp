@@ -40,6 +40,7 @@ Result<void> checkBlow(const HandBlow& blow) {
 Result<std::unique_ptr<Strikes>> Strikes::create(engine::Device& device, uint32_t bodies, uint32_t pieces) {
     std::unique_ptr<Strikes> strikes(new Strikes(device));
     if (auto made = strikes->make(bodies, pieces); !made) return made.error();
+    if (auto cleared = strikes->forget(); !cleared) return cleared.error();
     return strikes;
 }
 
@@ -95,12 +96,19 @@ void Strikes::recordJudging(const Step& s, const LastingBuffers& l, std::span<co
     commands.endLabel();
 }
 
-void Strikes::recordRaising(const Step& s, const PassingBuffers& p) const {
-    s.record.run("raise_strikes", kBodies, engine::NoPush{}, {s.record.counts(), records_, p.hardest});
+void Strikes::recordRaising(const Step& s, const LastingBuffers& l, const PassingBuffers& p) const {
+    s.record.run("raise_strikes", kBodies, engine::NoPush{}, {s.record.counts(), records_, p.hardest, l.breakable, s.b.bodies});
 }
 
 void Strikes::recordChoice(const Step& s, const PassingBuffers& p) const {
     s.record.run("choose_strikes", kBodies, engine::NoPush{}, {s.record.counts(), records_, p.hardest, p.chosen});
+}
+
+Result<void> Strikes::forget() {
+    engine::Commands commands(device_);
+    if (auto begun = commands.begin(); !begun) return begun;
+    commands.fill(records_, 0);
+    return commands.submitAndWait();
 }
 
 } // namespace brittle

@@ -1,5 +1,8 @@
-// Blows by hand (shaders-spirv/shared/strike.h): which bodies a host strikes, and which of them that breaks. Only steps in
-// which a host strikes have any of it: they are recorded apart, and what this needs is made when it is first asked for.
+// Blows by hand (shaders-spirv/shared/strike.h): which bodies a host strikes, and which of them that breaks.
+//
+// A world has none of this before a host strikes for the first time. From then on each step raises the blows that wait: a step
+// breaks as many bodies as it has room for, and the others break in the steps after. Only steps in which a host strikes judge
+// new blows; they are recorded apart.
 #pragma once
 
 #include "modules/brittle/breaking/breaking_buffers.h"
@@ -14,14 +17,17 @@ namespace brittle {
 
 class Strikes {
 public:
-    // For a world of so many slots of bodies and pieces. Errors: Capacity for what the device cannot bind; Device.
+    // For a world of so many slots of bodies and pieces; no blow waits. Errors: Capacity for what the device cannot bind;
+    // Device.
     static engine::Result<std::unique_ptr<Strikes>> create(engine::Device& device, uint32_t bodies, uint32_t pieces);
 
     // Once contacts are known, and before it is decided who sleeps. At most MOST_STRIKES.
     void recordJudging(const Step& step, const LastingBuffers& lasting, std::span<const HandBlow> blows) const;
-    // Between the contacts' blows being found and being chosen; after they have been chosen.
-    void recordRaising(const Step& step, const PassingBuffers& passing) const;
+    // Of every step: between the contacts' blows being found and being chosen; after they have been chosen.
+    void recordRaising(const Step& step, const LastingBuffers& lasting, const PassingBuffers& passing) const;
     void recordChoice(const Step& step, const PassingBuffers& passing) const;
+    // No blow waits any more. Errors: Device.
+    engine::Result<void> forget();
     engine::BufferView records() const { return records_; }
 
 private:

@@ -60,6 +60,8 @@ private:
     engine::Result<void> recordInto(engine::Commands& commands, uint32_t parity, const std::vector<HandBlow>* blows = nullptr);
     engine::Result<void> recordStep(Recorder& record, uint32_t parity, const std::vector<HandBlow>* blows = nullptr);
     bool bounce() const;
+    // What a blow by hand needs, before the first one.
+    engine::Result<void> prepareStrikes();
     // By its number, counted from 0.
     engine::Result<void> submit(uint64_t step);
     engine::Result<void> submitOnce(uint32_t parity, const std::vector<HandBlow>& blows);
@@ -108,9 +110,10 @@ private:
     WorldBudget budget_;
     std::unique_ptr<engine::Commands> commands_[2];
     bool submitted_[2] = {false, false};
-    std::unique_ptr<engine::Commands> by_others_[2];      // for command buffers of others, once they ask for it
-    std::vector<std::unique_ptr<engine::Commands>> once_; // the same of steps with blows by hand
-    std::map<uint64_t, std::vector<HandBlow>> strikes_;   // by step, until it is known to have been made
+    std::unique_ptr<engine::Commands> by_others_[2]; // for command buffers of others, once they ask for it
+    std::vector<std::unique_ptr<engine::Commands>>
+        once_; // the same of steps with blows by hand, and of steps recorded anew since
+    std::map<uint64_t, std::vector<HandBlow>> strikes_; // by step, until it is known to have been made
     bool times_passes_ = false;
     uint64_t made_ = 0;
     uint64_t ahead_ = 0;                 // steps that were submitted since that was read

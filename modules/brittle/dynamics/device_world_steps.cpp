@@ -14,6 +14,7 @@ using engine::Result;
 Result<void> DeviceWorld::makeBreakable(const RoomToBreak& room) {
     auto breaking = Breaking::create(device_, contents_, room, settings_, b_.sizes, budget_.group_size);
     if (!breaking) return breaking.error();
+    if (breaking_) (*breaking)->takeOverStrikes(breaking_->handOverStrikes());
     breaking_ = std::move(*breaking);
     to_break_ = room;
     return {};
@@ -31,7 +32,7 @@ Result<void> DeviceWorld::record() {
     for (uint32_t parity = 0; parity < 2; parity++) {
         commands_[parity] = std::move(recorded[parity]);
         submitted_[parity] = false;
-        by_others_[parity].reset();
+        if (by_others_[parity]) once_.push_back(std::move(by_others_[parity])); // it may not have run yet
     }
     return {};
 }
@@ -63,12 +64,19 @@ Result<void> DeviceWorld::strike(const HandBlow& blow) {
     if (!breaking_)
         return Error{ErrorCode::BadInput, "nothing in this world can break: it needs the effect impact_fracture, and bodies "
                                           "of a material"};
+    if (auto ready = prepareStrikes(); !ready) return ready;
     auto& blows = strikes_[made_ + ahead_];
     if (blows.size() == MOST_STRIKES)
         return Error{ErrorCode::Capacity, "a step takes " + std::to_string(MOST_STRIKES) +
                                               " blows by hand; make a step, or let one blow reach further"};
     blows.push_back(blow);
     return {};
+}
+
+Result<void> DeviceWorld::prepareStrikes() {
+    if (breaking_->hasStrikes()) return {};
+    if (auto made = breaking_->makeStrikes(); !made) return made;
+    return record();
 }
 
 Result<void> DeviceWorld::kernelsChanged() {
@@ -92,13 +100,12 @@ Result<void> DeviceWorld::recordStep(Recorder& record, uint32_t parity, const st
     record.clear({b_.counts.sub(0, 4 * STATUS_FAILED)});
     recordBoxes(step);
     if (auto recorded = recordContacts(step); !recorded) return recorded;
-    if (blows != nullptr)
-        if (auto struck = breaking_->recordStrikes(step, *blows); !struck) return struck;
+    if (blows != nullptr) breaking_->recordStrikes(step, *blows);
     recordIslands(step);
     if (breaking_)
-        if (auto recorded = breaking_->recordBlows(step, blows != nullptr); !recorded) return recorded;
+        if (auto recorded = breaking_->recordBlows(step); !recorded) return recorded;
     recordColors(step);
-    if (breaking_) breaking_->recordAdmission(step, blows != nullptr);
+    if (breaking_) breaking_->recordAdmission(step);
     recordSolve(step);
     recordImpacts(step, breaking_ ? std::optional(breaking_->breakable()) : std::nullopt);
     recordEnd(step);

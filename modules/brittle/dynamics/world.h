@@ -75,9 +75,10 @@ public:
     virtual engine::Result<void> recordSteps(VkCommandBuffer commands, uint32_t steps = 1) = 0;
 
     // A blow by hand, in the next step that is made or recorded: bodies that can break and are near enough are judged as in any
-    // blow (breaking/strikes.h). It pushes nothing, and its cracks cost no motion. Errors: those of checkBlow; BadInput where
-    // nothing breaks; Capacity for more than MOST_STRIKES in a step. What is saved has no blow that waits for its step in it,
-    // and restoring forgets it.
+    // blow (breaking/strikes.h). It pushes nothing, and its cracks cost no motion. Bodies that a step has no room for break in
+    // the steps after. Errors: those of checkBlow; BadInput if nothing breaks; Capacity for more than MOST_STRIKES in a step;
+    // of the first blow also Capacity and Device, if lists cannot be made. What is saved has no blow that waits, and restoring
+    // forgets those.
     virtual engine::Result<void> strike(const HandBlow& blow) = 0;
 
     // What to draw of it (drawing/drawing.h): made when first asked for, and anew where the world has made more room. Bodies
