@@ -392,9 +392,10 @@ BRITTLE_API BrittleResult brittleFinishSteps(BrittleContext* context, BrittleWor
  * within 1e6 m) than `radius` (m, above 0, at most 1e6) share `energy` (J, above 0, at most 1e15) evenly; each is judged as in
  * every blow: as if a ball of that radius, as dense as the body and unyielding, had met it at its nearest place with that
  * energy. So a small radius takes little energy to break something, and a large one more; too little breaks nothing. Fragments
- * are smallest within `radius`. It pushes nothing, and does not wait: what the budget of a step (breaking_bodies) has no room
- * for stays whole. At most 32 a step. Errors: BAD_VALUE, also where nothing in the world can break; CAPACITY. Allowed while
- * recorded steps are unfinished. */
+ * are smallest within `radius`. It pushes nothing. Bodies that a step has no room for (breaking_bodies, breaking_sites) break in
+ * the steps after, where they were hit. At most 32 a step. The first call for a world makes buffers and records its steps anew.
+ * Errors: BAD_VALUE, also if nothing in the world can break; CAPACITY; DEVICE_FAILED. Allowed while recorded steps are
+ * unfinished. */
 BRITTLE_API BrittleResult brittleDamage(BrittleContext* context, BrittleWorld world, BrittleVec3 point, double radius,
                                         double energy);
 

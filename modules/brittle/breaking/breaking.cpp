@@ -56,7 +56,7 @@ public:
     void takeOverStrikes(std::unique_ptr<Strikes> strikes) override { strikes_ = std::move(strikes); }
     Result<void> forgetStrikes() override { return strikes_ ? strikes_->forget() : Result<void>(); }
 
-    void recordStrikes(const Step& s, std::span<const HandBlow> blows) override { strikes_->recordJudging(s, l_, blows); }
+    void recordStrikes(const Step& s, const HandBlows& by_hand) override { strikes_->recordJudging(s, l_, by_hand); }
 
     Result<void> recordBlows(const Step& s) override {
         const auto& world = s.record.counts();

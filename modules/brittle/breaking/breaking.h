@@ -36,7 +36,7 @@ public:
     virtual engine::Result<void> forgetStrikes() = 0;
 
     // Of a step in which a host strikes by hand: whom, before it is decided who sleeps. Needs makeStrikes.
-    virtual void recordStrikes(const Step& step, std::span<const HandBlow> blows) = 0;
+    virtual void recordStrikes(const Step& step, const HandBlows& by_hand) = 0;
     virtual engine::Result<void> recordBlows(const Step& step) = 0;
     // Who breaks, once nothing can fail any more that the step needs: a step that is not made breaks nothing. Bodies stand as
     // they did when it began.

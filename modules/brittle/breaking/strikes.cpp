@@ -40,7 +40,7 @@ Result<void> checkBlow(const HandBlow& blow) {
 Result<std::unique_ptr<Strikes>> Strikes::create(engine::Device& device, uint32_t bodies, uint32_t pieces) {
     std::unique_ptr<Strikes> strikes(new Strikes(device));
     if (auto made = strikes->make(bodies, pieces); !made) return made.error();
-    if (auto cleared = strikes->forget(); !cleared) return cleared.error();
+
     return strikes;
 }
 
@@ -66,7 +66,8 @@ Result<void> Strikes::make(uint64_t bodies, uint64_t pieces) {
     return {};
 }
 
-void Strikes::recordJudging(const Step& s, const LastingBuffers& l, std::span<const HandBlow> blows) const {
+void Strikes::recordJudging(const Step& s, const LastingBuffers& l, const HandBlows& by_hand) const {
+    const std::vector<HandBlow>& blows = by_hand.blows;
     ENGINE_ASSERT(blows.size() <= MOST_STRIKES);
     std::array<gpu::Strike, MOST_STRIKES> strikes = {};
     for (size_t k = 0; k < blows.size(); ++k)
@@ -79,6 +80,7 @@ void Strikes::recordJudging(const Step& s, const LastingBuffers& l, std::span<co
     } push = {count, static_cast<float>(s.settings.dt)};
     const auto& counts = s.record.counts();
     commands.beginLabel("strikes");
+    if (by_hand.is_first) commands.fill(records_, 0);
     commands.update(strikes_, std::as_bytes(std::span(strikes)));
     commands.fill(nearest_, NO_INDEX);
     commands.fill(claims_, NO_INDEX);

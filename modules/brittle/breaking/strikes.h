@@ -11,18 +11,24 @@
 #include "shaders-spirv/shared/strike.h"
 
 #include <memory>
-#include <span>
+#include <vector>
 
 namespace brittle {
 
+// Of one step.
+struct HandBlows {
+    std::vector<HandBlow> blows; // at most MOST_STRIKES
+    bool is_first = false;       // of a world: the step begins with clearing what waits
+};
+
 class Strikes {
 public:
-    // For a world of so many slots of bodies and pieces; no blow waits. Errors: Capacity for what the device cannot bind;
-    // Device.
+    // For a world of so many slots of bodies and pieces. The next step that is made has to have blows, and they are its first
+    // ones: memory is not cleared before. Errors: Capacity for what the device cannot bind; Device.
     static engine::Result<std::unique_ptr<Strikes>> create(engine::Device& device, uint32_t bodies, uint32_t pieces);
 
-    // Once contacts are known, and before it is decided who sleeps. At most MOST_STRIKES.
-    void recordJudging(const Step& step, const LastingBuffers& lasting, std::span<const HandBlow> blows) const;
+    // Once contacts are known, and before it is decided who sleeps.
+    void recordJudging(const Step& step, const LastingBuffers& lasting, const HandBlows& by_hand) const;
     // Of every step: between the contacts' blows being found and being chosen; after they have been chosen.
     void recordRaising(const Step& step, const LastingBuffers& lasting, const PassingBuffers& passing) const;
     void recordChoice(const Step& step, const PassingBuffers& passing) const;

@@ -56,15 +56,15 @@ public:
     engine::Result<uint64_t> hash() override;
 
 private:
-    // `blows`: by hand; nullptr for a step without, which has nothing of it.
-    engine::Result<void> recordInto(engine::Commands& commands, uint32_t parity, const std::vector<HandBlow>* blows = nullptr);
-    engine::Result<void> recordStep(Recorder& record, uint32_t parity, const std::vector<HandBlow>* blows = nullptr);
+    // `by_hand`: nullptr for a step without blows by hand.
+    engine::Result<void> recordInto(engine::Commands& commands, uint32_t parity, const HandBlows* by_hand = nullptr);
+    engine::Result<void> recordStep(Recorder& record, uint32_t parity, const HandBlows* by_hand = nullptr);
     bool bounce() const;
     // What a blow by hand needs, before the first one.
     engine::Result<void> prepareStrikes();
     // By its number, counted from 0.
     engine::Result<void> submit(uint64_t step);
-    engine::Result<void> submitOnce(uint32_t parity, const std::vector<HandBlow>& blows);
+    engine::Result<void> submitOnce(uint32_t parity, const HandBlows& by_hand);
     engine::Result<void> recordForOthers(std::unique_ptr<engine::Commands>& recording, uint64_t step);
 
     // Finds out what has become of steps that were submitted. Where one did not fit, none after it was made: with more room
@@ -112,8 +112,8 @@ private:
     bool submitted_[2] = {false, false};
     std::unique_ptr<engine::Commands> by_others_[2]; // for command buffers of others, once they ask for it
     std::vector<std::unique_ptr<engine::Commands>>
-        once_; // the same of steps with blows by hand, and of steps recorded anew since
-    std::map<uint64_t, std::vector<HandBlow>> strikes_; // by step, until it is known to have been made
+        once_;                              // the same of steps with blows by hand, and of steps recorded anew since
+    std::map<uint64_t, HandBlows> strikes_; // by step, until it is known to have been made
     bool times_passes_ = false;
     uint64_t made_ = 0;
     uint64_t ahead_ = 0;                 // steps that were submitted since that was read

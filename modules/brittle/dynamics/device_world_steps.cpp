@@ -65,7 +65,7 @@ Result<void> DeviceWorld::strike(const HandBlow& blow) {
         return Error{ErrorCode::BadInput, "nothing in this world can break: it needs the effect impact_fracture, and bodies "
                                           "of a material"};
     if (auto ready = prepareStrikes(); !ready) return ready;
-    auto& blows = strikes_[made_ + ahead_];
+    auto& blows = strikes_[made_ + ahead_].blows;
     if (blows.size() == MOST_STRIKES)
         return Error{ErrorCode::Capacity, "a step takes " + std::to_string(MOST_STRIKES) +
                                               " blows by hand; make a step, or let one blow reach further"};
@@ -76,6 +76,7 @@ Result<void> DeviceWorld::strike(const HandBlow& blow) {
 Result<void> DeviceWorld::prepareStrikes() {
     if (breaking_->hasStrikes()) return {};
     if (auto made = breaking_->makeStrikes(); !made) return made;
+    strikes_[made_ + ahead_].is_first = true;
     return record();
 }
 
@@ -87,20 +88,20 @@ Result<void> DeviceWorld::kernelsChanged() {
     return settled;
 }
 
-Result<void> DeviceWorld::recordInto(engine::Commands& commands, uint32_t parity, const std::vector<HandBlow>* blows) {
+Result<void> DeviceWorld::recordInto(engine::Commands& commands, uint32_t parity, const HandBlows* by_hand) {
     Recorder recorder(commands, kernels_, b_.counts, b_.args);
-    if (auto recorded = recordStep(recorder, parity, blows); !recorded) return recorded;
+    if (auto recorded = recordStep(recorder, parity, by_hand); !recorded) return recorded;
     return recorder.status();
 }
 
-Result<void> DeviceWorld::recordStep(Recorder& record, uint32_t parity, const std::vector<HandBlow>* blows) {
-    if (blows != nullptr && has(Effect::Sleeping)) record.commands().fill(b_.steps.sub(4 * STEPS_ASLEEP, 4), 0);
+Result<void> DeviceWorld::recordStep(Recorder& record, uint32_t parity, const HandBlows* by_hand) {
+    if (by_hand != nullptr && has(Effect::Sleeping)) record.commands().fill(b_.steps.sub(4 * STEPS_ASLEEP, 4), 0);
     const Step step = {settings_, b_,     b_.memory[1 - parity], b_.memory[parity],
                        kernels_,  record, hasManyLanes(device_), has(Effect::Restitution) && bounce()};
     record.clear({b_.counts.sub(0, 4 * STATUS_FAILED)});
     recordBoxes(step);
     if (auto recorded = recordContacts(step); !recorded) return recorded;
-    if (blows != nullptr) breaking_->recordStrikes(step, *blows);
+    if (by_hand != nullptr) breaking_->recordStrikes(step, *by_hand);
     recordIslands(step);
     if (breaking_)
         if (auto recorded = breaking_->recordBlows(step); !recorded) return recorded;
@@ -126,10 +127,10 @@ Result<void> DeviceWorld::submit(uint64_t step) {
     return commands.wait();
 }
 
-Result<void> DeviceWorld::submitOnce(uint32_t parity, const std::vector<HandBlow>& blows) {
+Result<void> DeviceWorld::submitOnce(uint32_t parity, const HandBlows& by_hand) {
     engine::Commands commands(device_);
     if (auto begun = commands.begin(); !begun) return begun;
-    if (auto recorded = recordInto(commands, parity, &blows); !recorded) return recorded;
+    if (auto recorded = recordInto(commands, parity, &by_hand); !recorded) return recorded;
     return commands.submitAndWait();
 }
 
