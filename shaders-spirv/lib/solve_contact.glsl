@@ -217,7 +217,10 @@ void keepMotion(uint body, Moving m) {
     solver_bodies[body].spin.xyz = m.spin;
 }
 
-vec4 springOf(uint c) { return solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? vec4(stiff.xyz, soft.w) : soft; }
+// w: the most push, m/s.
+vec4 springOf(uint c) {
+    return vec4(solver_contacts[c].rub_mass.w == float(ARMS_STAY) ? stiff.xyz : soft.xyz, solver_contacts[c].rub.w);
+}
 
 void solveContact(uint c) {
     uvec4 ids = solver_contacts[c].ids;

@@ -129,7 +129,7 @@ struct SolverContact {
     vec4 tangent;  // w: restitution
     vec4 center_a; // mean of the arms; w: effective mass against twisting
     vec4 center_b; // w: mean distance of the points from their center
-    vec4 rub;      // impulses along the tangent, across it, of twisting; w: unused
+    vec4 rub;      // impulses along the tangent, across it, of twisting; w: the most that overlap is pushed out with, m/s
     vec4 rub_mass; // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
     vec4 loads;    // of the points: what of their impulse does not make them give way
     uvec4 pace;    // substeps of its last step, 0 if it is new; of this one
@@ -160,7 +160,7 @@ struct ContactMemory {
 
 struct SolverPush {
     vec4 gravity;   // w: length of a substep, s
-    vec4 soft;      // of two bodies that move: push per overlap, 1/s; share of the mass; share of the impulse; most push, m/s
+    vec4 soft;      // of two bodies that move: push per overlap, 1/s; share of the mass; share of the impulse; w: unused
     vec4 stiff;     // the same where one does not move; w: least speed that bounces, m/s
     uint color;     // the color, or the first of the rest
     uint with_push; // PUSH_* or RELAX_*
@@ -168,11 +168,19 @@ struct SolverPush {
     uint substeps;      // of a step, at the least
 };
 
+// // For prepare_contacts.
+struct PreparePush {
+    vec4 gravity;     // w: length of a substep, s
+    uint substeps;    // of a step, at the least
+    float most_push;  // m/s, that overlap is pushed out with,
+    float push_share; // or so much of the shorter arm in a step, if that is more
+};
+
 // For small islands, whose substeps the device chooses.
 struct PacePush {
     vec4 gravity;         // w: length of the step, s
     float hertz, damping; // of the spring between bodies that move, with `substeps`
-    float push_out;       // m/s, the most that overlap is pushed out with
+    
     float least_bounce;   // m/s
     uint substeps;        // at the least
     uint most_substeps;

@@ -18,7 +18,7 @@ READS(3, ContactMemory, memory);
 READS(4, BodyState, bodies);
 READS(5, SolverBody, solver_bodies);
 WRITES(6, SolverContact, solver_contacts);
-layout(push_constant) uniform Push { SolverPush push_; };
+layout(push_constant) uniform Push { PreparePush push_; };
 #include "lib/meeting.glsl"
 #include "lib/symmetric_inverse.glsl"
 
@@ -71,6 +71,13 @@ mat4 pressMass(uint pair, uint points, Pair p, vec3 normal) {
     return float(points) / trace * (yields * symmetricInverse(yields * yields + mat4(kDoubt * kDoubt)));
 }
 
+// Gravity says how fast overlap may be pushed out. Under little or none a share of the shorter arm in a step counts, which scales
+// with the bodies.
+float mostPush(Pair p, vec3 arm_a, vec3 arm_b) {
+    float a = p.a.inverse_mass > 0.0 ? length(arm_a) : 3e38, b = p.b.inverse_mass > 0.0 ? length(arm_b) : 3e38;
+    return max(push_.most_push, push_.push_share * min(a, b) / (float(push_.substeps) * push_.gravity.w));
+}
+
 void main() {
     uint at = flatIndex();
     if (at >= counts[COUNT_CONTACTS]) return;
@@ -103,7 +110,8 @@ void main() {
     solver_contacts[c].center_b = vec4(center_b + p.slid_b, reach);
     mat4 press = pressMass(pair, points, p, normal.xyz);
     for (uint k = 0u; k < MANIFOLD_POINTS; k++) solver_contacts[c].press[k] = press[k];
-    if (kFriction != 0u) solver_contacts[c].rub = vec4(scaleOf(pair) * memory[pair].rub.xyz, 1.0);
+    if (kFriction != 0u) solver_contacts[c].rub.xyz = scaleOf(pair) * memory[pair].rub.xyz;
+    solver_contacts[c].rub.w = mostPush(p, center_a + p.slid_a, center_b + p.slid_b);
     vec4 loads = vec4(0.0);
     for (uint k = 0u; k < points; k++) loads = withComponent(loads, k, LOAD_CARRIED * scaleOf(pair) * max(memory[pair].arm_b[k].w, 0.0));
     solver_contacts[c].loads = loads;

@@ -96,7 +96,7 @@ void takePace(uint lane, uvec2 range, uint pace, bool carries) {
 void setSubstep(uint pace) {
     float h = push_.gravity.w / float(pace), hertz = min(push_.hertz * float(pace) / float(push_.substeps), STIFFEST / h);
     gravity = vec4(push_.gravity.xyz, h);
-    soft = vec4(softnessOf(hertz, push_.damping, h), push_.push_out);
+    soft = vec4(softnessOf(hertz, push_.damping, h), 0.0);
     stiff = vec4(softnessOf(2.0 * hertz, 0.5 * push_.damping, h), push_.least_bounce);
 }
 

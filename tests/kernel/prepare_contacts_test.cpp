@@ -2,12 +2,14 @@
 #include "tests/kernel/solver_lab.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace kernel_test {
 namespace {
 
 constexpr double kSubstep = 1.0 / 240;
 constexpr uint32_t kSubsteps = 4;
+constexpr float kMostPush = 0.15F, kPushShare = 0.004F;
 constexpr double kDoubt = 0.02; // of pressing together: speeds that points have by less than this share are noise
 
 struct Scene {
@@ -21,9 +23,11 @@ std::vector<gpu::SolverContact> preparedOnDevice(const Scene& scene) {
     Counts counts;
     const auto count = static_cast<uint32_t>(scene.pair_of.size());
     counts[COUNT_CONTACTS] = count;
-    gpu::SolverPush push{};
+    gpu::PreparePush push{};
     push.substeps = kSubsteps;
     push.gravity = wordsOf(scene.gravity, kSubstep);
+    push.most_push = kMostPush;
+    push.push_share = kPushShare;
     const engine::Buffer pairs = bufferOf(scene.pair_of), slots = bufferOf(scene.slots), memory = bufferOf(scene.memory),
                          states = bufferOf(statesOf(scene.bodies)), solver_bodies = bufferOf(solverBodiesOf(scene.bodies)),
                          contacts = blankBuffer<gpu::SolverContact>(count);
@@ -283,6 +287,22 @@ TEST(SmallPrepareContacts, HaveTheMassThatAnImpulseMeets) {
         const double twist = wanted.normal.dot((wanted.a.inverseInertia() + wanted.b.inverseInertia()) * wanted.normal);
         EXPECT_NEAR(got.center_a.w * twist, twist > 0 ? 1 : 0, 1e-4);
     });
+}
+
+TEST(SmallPrepareContacts, MayBePushedOutByAShareOfTheShorterArmInAStepOrAsFastAsTheWorldSays) {
+    uint32_t wide = 0, all = 0;
+    forEach(randomScene(300, 16), [&](const Expected& wanted, const gpu::SolverContact& got, uint32_t) {
+        double shorter = std::numeric_limits<double>::infinity();
+        if (wanted.a.moves()) shorter = std::min(shorter, xyz(got.center_a).norm());
+        if (wanted.b.moves()) shorter = std::min(shorter, xyz(got.center_b).norm());
+        if (!std::isfinite(shorter)) return;
+        const double of_arm = kPushShare * shorter / (kSubsteps * kSubstep);
+        EXPECT_NEAR(got.rub.w, std::max(double{kMostPush}, of_arm), 1e-6);
+        wide += of_arm > kMostPush ? 1 : 0;
+        ++all;
+    });
+    EXPECT_GT(wide, 10u);
+    EXPECT_GT(all - wide, 10u);
 }
 
 TEST(SmallPrepareContacts, RubAtTheMiddleOfTheirPoints) {

@@ -41,6 +41,7 @@ gpu::SolverContact solverContactOf(const Island& island, const Contact& from, ui
     contact.normal = wordsOf(from.normal, from.friction);
     contact.tangent = wordsOf(from.normal.unitOrthogonal());
     contact.rub_mass = wordsOf(Vector(mass, 0, mass), both_move ? ARMS_OF_A_FOLLOW : ARMS_STAY);
+    contact.rub.w = 3; // m/s, the most push
     contact.press[0].x = static_cast<float>(mass);
     contact.points[0].arm_a.w = static_cast<float>(from.apart);
     contact.points[0].arm_b.w = static_cast<float>(mass);
@@ -111,7 +112,6 @@ gpu::PacePush pushOf(double gravity) {
     push.gravity = wordsOf(Vector(0, -gravity, 0), kStep);
     push.hertz = 1e30F;
     push.damping = 10;
-    push.push_out = 3;
     push.least_bounce = 1;
     push.substeps = kSubsteps;
     push.most_substeps = 64;

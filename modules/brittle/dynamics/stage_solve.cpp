@@ -14,7 +14,7 @@ constexpr double kNoLimit = 1e30; // Hz
 constexpr Length kContacts = {0, COUNT_CONTACTS}, kBodies = {0, COUNT_BODIES};
 
 // A soft constraint (Catto, "Soft Constraints", 2011): how fast overlap is pushed out, and the shares of mass and impulse.
-gpu::vec4 softness(double hertz, double damping, double h, double last) {
+gpu::vec4 softness(double hertz, double damping, double h, double last = 0) {
     const double omega = 2 * std::numbers::pi * hertz, a1 = 2 * damping + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
     return {static_cast<float>(omega / a1), static_cast<float>(a2 * a3), static_cast<float>(a3), static_cast<float>(last)};
 }
@@ -115,7 +115,7 @@ void recordSmallIslands(const Step& s) {
     push.gravity = fallingOf(s);
     push.hertz = static_cast<float>(set.contact_hertz > 0 ? set.contact_hertz : kNoLimit);
     push.damping = static_cast<float>(set.contact_damping);
-    push.push_out = static_cast<float>(pushOut(set));
+
     push.least_bounce = static_cast<float>(set.bounce_speed);
     push.substeps = set.substeps;
     push.most_substeps = std::max(set.substeps, set.most_substeps);
@@ -156,11 +156,27 @@ gpu::SolverPush solverPush(const Step& s) {
     gpu::SolverPush push{};
     push.gravity = {static_cast<float>(set.gravity[0]), static_cast<float>(set.gravity[1]), static_cast<float>(set.gravity[2]),
                     static_cast<float>(h)};
-    push.soft = softness(hertz, set.contact_damping, h, pushOut(set));
+    push.soft = softness(hertz, set.contact_damping, h);
     push.substeps = set.substeps;
     push.stiff = softness(2 * hertz, 0.5 * set.contact_damping, h, set.bounce_speed);
     return push;
 }
+
+namespace {
+
+void recordPreparation(const Step& s) {
+    const StepBuffers& b = s.b.step;
+    gpu::PreparePush push{};
+    push.gravity = solverPush(s).gravity;
+    push.substeps = s.settings.substeps;
+    push.most_push = static_cast<float>(pushOut(s.settings));
+    push.push_share = static_cast<float>(pushShare(s.settings));
+    s.record.run(
+        "prepare_contacts", kContacts, push,
+        {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
+}
+
+} // namespace
 
 void recordColors(const Step& s) {
     if (!s.has(Effect::Contacts)) return;
@@ -176,10 +192,7 @@ void recordSolve(const Step& s) {
     const gpu::SolverPush push = solverPush(s);
     s.record.commands().beginLabel("solve");
     const bool contacts = s.has(Effect::Contacts);
-    if (contacts)
-        s.record.run("prepare_contacts", kContacts, push,
-                     {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies,
-                      b.solver_contacts});
+    if (contacts) recordPreparation(s);
     if (contacts) recordSmallIslands(s);
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push, k);

@@ -36,8 +36,13 @@ double contactMargin(const StepSettings& s) {
 }
 
 double pushOut(const StepSettings& s) {
-    constexpr double kLeast = 3, kFalls = 18;
-    return s.push_out > 0 ? s.push_out : std::max(kLeast, kFalls * s.dt * length(s.gravity));
+    constexpr double kUsual = 3, kUsualFall = 9.81 / 60; // m/s, in a step
+    return s.push_out > 0 ? s.push_out : kUsual * (s.dt * length(s.gravity) / kUsualFall);
+}
+
+double pushShare(const StepSettings& s) {
+    constexpr double kShare = 0.004;
+    return s.push_out > 0 ? 0 : kShare;
 }
 
 float leastVolumeOf(const StepSettings& s) {

@@ -19,8 +19,8 @@ struct StepSettings {
     bool contacts = true;          // without them bodies fly and fall through each other, and nothing is looked for or solved
     double contact_hertz = 0;      // of the spring that pushes overlap out; 0: as stiff as the substeps allow
     double contact_damping = 10;
-    double push_out = 0;        // m/s, the most that overlap is pushed out with; 0: 3 m/s, or more under great gravity
-    double margin = 0;          // m: points that are still so far apart are contacts already; 0: contactMargin()
+    double push_out = 0; // m/s, the most that overlap is pushed out with; 0: as gravity and bodies have it (pushOut, pushShare)
+    double margin = 0;   // m: points that are still so far apart are contacts already; 0: contactMargin()
     double bounce_speed = 0.25; // m/s: what comes in slower does not bounce
     bool hard_solver = false;   // heaps get all substeps that their loads need, as stacks do, and all get twice as many
     uint32_t fixed_axes = 0;    // of the narrow phase; 0: all axes of both hulls
@@ -59,9 +59,11 @@ double contactHertz(const StepSettings& settings);
 // gravity in a step goes with the square of the step, and so does the margin.
 double contactMargin(const StepSettings& settings);
 
-// m/s. The most that overlap is pushed out with: that of the settings, or the larger of 3 m/s and what gravity gives in 18
-// steps.
+// // m/s, the most that overlap is pushed out with: that of the settings, or what gravity gives in about 18 steps, but no less
+// than pushShare.
 double pushOut(const StepSettings& settings);
+// Of the shorter arm of a contact, in a step. 0 if the settings have push_out.
+double pushShare(const StepSettings& settings);
 
 // m3, that a body has at the least.
 float leastVolumeOf(const StepSettings& settings);

@@ -95,7 +95,8 @@ constexpr SceneKey kStepKeys[] = {
      "frequency of soft contacts, at most an eighth of the substeps a second; 0: as much as that"},
     {"contact_damping", at<&StepDescription::contact_damping>, from(0, 1e3), "", "damping ratio of soft contacts"},
     {"push_out", at<&StepDescription::push_out>, from(0, 1e3), "m/s",
-     "the most that overlap is undone with; 0: 3 m/s, or what gravity gives in 18 steps if that is more"},
+     "the most that overlap is undone with; 0: what gravity gives in 18 steps, or per step a 250th of the way from a contact "
+     "to the nearer center of mass if that is more"},
     {"bounce_speed", at<&StepDescription::bounce_speed>, from(0, 1e4), "m/s",
      "what meets more slowly does not bounce; acts where `effects` has restitution"},
     {"margin", at<&StepDescription::margin>, from(0, 1), "m",
