@@ -20,10 +20,10 @@ double gravityOf(const MeasuredScene& run) { return brittle::length(run.scene().
 
 double massOf(const MeasuredScene& run, size_t body) { return 1 / double{run.state(body).offset.w}; }
 
-// A falling body has the velocity that it had half a substep before.
+// A falling body has the velocity that it had half a substep before, whoever moves it.
 double squareOfSpeed(const MeasuredScene& run, size_t body) {
     const gpu::vec4& v = run.state(body).velocity;
-    const double lag = 0.5 * run.scene().step.dt / run.scene().step.substeps;
+    const double lag = 0.5 * run.substep();
     const Double3 now = brittle::operator+(Double3{v.x, v.y, v.z}, brittle::operator*(lag, run.scene().gravity));
     return brittle::dot(now, now);
 }

@@ -1,0 +1,105 @@
+#ifdef BRITTLE_PEER_BULLET
+
+#include "tools/bench/bullet_shapes.h"
+
+#include "tools/bench/inset_hull.h"
+
+#include <bit>
+#include <limits>
+
+namespace bench {
+namespace {
+
+constexpr double kMargin = 1e-3;      // m
+constexpr double kMarginShare = 0.02; // of the thinnest piece
+constexpr double kRounding = 1e-6;    // of a box of floats
+
+Point xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
+
+} // namespace
+
+btCollisionShape* BulletShapes::shapeOf(size_t body) {
+    auto shape = makeShape(body);
+    shape->setMargin(static_cast<btScalar>(marginOf(body)));
+    return shapes_.emplace_back(std::move(shape)).get();
+}
+
+double BulletShapes::halfExtent(size_t body) const {
+    const gpu::uvec4& pieces = contents_.shapes[body].pieces;
+    Point low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
+    for (uint32_t p = pieces.x; p < pieces.x + pieces.y; ++p)
+        for (const Point& corner : cornersOf(p))
+            for (size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], corner[k]);
+                high[k] = std::max(high[k], corner[k]);
+            }
+    return std::min({high[0] - low[0], high[1] - low[1], high[2] - low[2]}) / 2;
+}
+
+std::vector<Point> BulletShapes::cornersOf(size_t piece) const {
+    const gpu::HullRecord& hull = contents_.hulls.records[contents_.pieces[piece].ids.x];
+    std::vector<Point> corners;
+    for (uint32_t v = 0; v < hull.count.x; ++v)
+        corners.push_back(xyz(contents_.hulls.vertices[hull.first.x + v]));
+    return corners;
+}
+
+bool BulletShapes::isSurface(size_t body) const {
+    const gpu::HullRecord& hull = contents_.hulls.records[contents_.pieces[contents_.shapes[body].pieces.x].ids.x];
+    return hull.count.x == 3;
+}
+
+// Triangles have no thickness.
+double BulletShapes::marginOf(size_t body) const {
+    const double thickness = 2.0 * std::bit_cast<float>(contents_.shapes[body].pieces.z);
+    return isSurface(body) ? kMargin : std::min(kMargin, kMarginShare * thickness);
+}
+
+std::unique_ptr<btCollisionShape> BulletShapes::makeShape(size_t body) {
+    const gpu::uvec4& pieces = contents_.shapes[body].pieces;
+    if ((contents_.pieces[pieces.x].ids.z & PIECE_PLANE) != 0)
+        return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0));
+    if (isSurface(body)) return surfaceOf(body);
+    if (pieces.y > 1) return compoundOf(body);
+    if (const auto half = halfOf(cornersOf(pieces.x), kRounding)) return std::make_unique<btBoxShape>(*half);
+    return hullOf(pieces.x, marginOf(body));
+}
+
+std::unique_ptr<btCollisionShape> BulletShapes::surfaceOf(size_t body) {
+    const gpu::uvec4& pieces = contents_.shapes[body].pieces;
+    auto& mesh = *meshes_.emplace_back(std::make_unique<btTriangleMesh>());
+    for (uint32_t p = pieces.x; p < pieces.x + pieces.y; ++p) {
+        const std::vector<Point> corners = cornersOf(p);
+        mesh.addTriangle(vectorOf(corners[0]), vectorOf(corners[1]), vectorOf(corners[2]));
+    }
+    return std::make_unique<btBvhTriangleMeshShape>(&mesh, true);
+}
+
+std::unique_ptr<btCollisionShape> BulletShapes::hullOf(size_t piece, double margin) const {
+    const gpu::HullRecord& record = contents_.hulls.records[contents_.pieces[piece].ids.x];
+    std::vector<HullPlane> planes;
+    for (uint32_t f = 0; f < record.count.y; ++f) {
+        const gpu::vec4& plane = contents_.hulls.faces[record.first.y + f].plane;
+        planes.push_back({xyz(plane), plane.w});
+    }
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Point& corner : insetCorners(planes, margin, record.center.w))
+        hull->addPoint(vectorOf(corner), false);
+    hull->setMargin(static_cast<btScalar>(margin));
+    hull->recalcLocalAabb();
+    return hull;
+}
+
+std::unique_ptr<btCollisionShape> BulletShapes::compoundOf(size_t body) {
+    const gpu::uvec4& pieces = contents_.shapes[body].pieces;
+    auto compound = std::make_unique<btCompoundShape>();
+    for (uint32_t p = pieces.x; p < pieces.x + pieces.y; ++p) {
+        shapes_.push_back(hullOf(p, marginOf(body)));
+        compound->addChildShape(btTransform::getIdentity(), shapes_.back().get());
+    }
+    return compound;
+}
+
+} // namespace bench
+
+#endif
