@@ -30,8 +30,8 @@ bool Trial::step(support::MeasuredScene& run, uint32_t steps) {
     return !failure_;
 }
 
-void Trial::check(std::string what, double value, double allowed, std::string unit) {
-    if (!failure_) checks_.push_back({std::move(what), std::move(unit), value, allowed});
+void Trial::check(std::string what, double value, double allowed, std::string unit, std::string body) {
+    if (!failure_) checks_.push_back({std::move(what), std::move(unit), value, allowed, false, std::move(body)});
 }
 
 void Trial::knownShortfall(std::string what, double value, double allowed, std::string unit) {

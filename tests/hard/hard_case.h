@@ -18,6 +18,7 @@ struct Check {
     std::string what, unit; // of shares and counts the unit is empty
     double value = 0, allowed = 0;
     bool is_known_shortfall = false; // it is not fulfilled, and nobody claims that it is
+    std::string body = {};           // the one that was measured; empty: all of them
     bool holds() const { return value <= allowed; }
 };
 
@@ -35,7 +36,7 @@ public:
     bool step(support::MeasuredScene& run, uint32_t steps);
     bool finish(support::MeasuredScene& run) { return step(run, run.stepsLeft()); }
 
-    void check(std::string what, double value, double allowed, std::string unit = "");
+    void check(std::string what, double value, double allowed, std::string unit = "", std::string body = "");
     void knownShortfall(std::string what, double value, double allowed, std::string unit = "");
     void fail(std::string why);
 

@@ -75,7 +75,7 @@ private:
         const brittle::Pose pose = brittle::poseOf(state);
         btRigidBody::btRigidBodyConstructionInfo info(moves ? 1 / state.offset.w : 0, nullptr, shapes_.shapeOf(b),
                                                       moves ? vectorOf(momentsOf(shape)) : btVector3(0, 0, 0));
-        info.m_startWorldTransform = transformOf(pose.place, pose.turn);
+        info.m_startWorldTransform = transformOf(pose.place, pose.turn) * transformOf(shapes_.middleOf(b), {0, 0, 0, 1});
         info.m_friction = settings_.friction ? std::sqrt(shape.inverse_inertia[0].w) : 0; // Bullet multiplies two
         info.m_restitution = settings_.restitution ? shape.inverse_inertia[1].w : 0;
         return info;

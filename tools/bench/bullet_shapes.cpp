@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kMargin = 1e-3;      // m
 constexpr double kMarginShare = 0.02; // of the thinnest piece
+constexpr double kHalfGround = 50;    // m
 constexpr double kRounding = 1e-6;    // of a box of floats
 
 Point xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
@@ -23,6 +24,8 @@ btCollisionShape* BulletShapes::shapeOf(size_t body) {
     shape->setMargin(static_cast<btScalar>(marginOf(body)));
     return shapes_.emplace_back(std::move(shape)).get();
 }
+
+Point BulletShapes::middleOf(size_t body) const { return {0, isPlane(body) ? -kHalfGround : 0, 0}; }
 
 double BulletShapes::halfExtent(size_t body) const {
     const gpu::uvec4& pieces = contents_.shapes[body].pieces;
@@ -44,6 +47,10 @@ std::vector<Point> BulletShapes::cornersOf(size_t piece) const {
     return corners;
 }
 
+bool BulletShapes::isPlane(size_t body) const {
+    return (contents_.pieces[contents_.shapes[body].pieces.x].ids.z & PIECE_PLANE) != 0;
+}
+
 bool BulletShapes::isSurface(size_t body) const {
     const gpu::HullRecord& hull = contents_.hulls.records[contents_.pieces[contents_.shapes[body].pieces.x].ids.x];
     return hull.count.x == 3;
@@ -57,8 +64,7 @@ double BulletShapes::marginOf(size_t body) const {
 
 std::unique_ptr<btCollisionShape> BulletShapes::makeShape(size_t body) {
     const gpu::uvec4& pieces = contents_.shapes[body].pieces;
-    if ((contents_.pieces[pieces.x].ids.z & PIECE_PLANE) != 0)
-        return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0));
+    if (isPlane(body)) return std::make_unique<btBoxShape>(vectorOf({kHalfGround, kHalfGround, kHalfGround}));
     if (isSurface(body)) return surfaceOf(body);
     if (pieces.y > 1) return compoundOf(body);
     if (const auto half = halfOf(cornersOf(pieces.x), kRounding)) return std::make_unique<btBoxShape>(*half);

@@ -31,6 +31,18 @@ double useOf(const Check& check) {
     return check.value > check.allowed ? std::numeric_limits<double>::infinity() : 0;
 }
 
+// Such as " (body 1, body 2)"; empty where no check of a single body fails.
+std::string failingBodies(const std::vector<Check>& checks) {
+    std::vector<std::string> names;
+    for (const Check& check : checks)
+        if (!check.holds() && !check.body.empty() && std::ranges::find(names, check.body) == names.end())
+            names.push_back(check.body);
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? " (" : ", ") + name;
+    return text.empty() ? text : text + ")";
+}
+
 HardCase outcomeOf(const Job& job, const Trial& trial, const FractureCost& cost) {
     HardCase outcome;
     outcome.name = job.name;
@@ -42,7 +54,7 @@ HardCase outcomeOf(const Job& job, const Trial& trial, const FractureCost& cost)
     const auto& checks = trial.checks();
     const auto worst = std::ranges::max_element(checks, {}, useOf);
     if (worst == checks.end()) return outcome;
-    outcome.worst_kind = worst->what;
+    outcome.worst_kind = worst->what + failingBodies(checks);
     outcome.unit = worst->unit;
     outcome.worst_error = worst->value;
     outcome.allowed = worst->allowed;
