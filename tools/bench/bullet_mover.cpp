@@ -18,8 +18,6 @@ namespace {
 
 using engine::Error, engine::ErrorCode, engine::Result;
 
-constexpr double kSweptShare = 0.9; // of half the least extent
-
 // Bullet multiplies those of two bodies.
 btScalar greaterRestitution(const btCollisionObject* a, const btCollisionObject* b) {
     return std::max(a->getRestitution(), b->getRestitution());
@@ -89,7 +87,7 @@ private:
         if (contents_.bodies[b].offset.w != 0) {
             const auto half = static_cast<btScalar>(shapes_.halfExtent(b));
             body.setCcdMotionThreshold(half);
-            body.setCcdSweptSphereRadius(static_cast<btScalar>(kSweptShare) * half);
+            body.setCcdSweptSphereRadius(half);
         }
         world_.addRigidBody(&body);
     }

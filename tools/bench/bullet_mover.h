@@ -6,7 +6,7 @@
 //   shapes    those of bullet_shapes.h
 //   surfaces  friction and restitution of two bodies are what they are in the scene: the geometric mean, and the greater one
 //   fast ones continuous collision detection acts on what moves further in a step than half its least extent, with a sphere of
-//             0.9 of that, as in Bullet's own demo; Bullet has it for convex shapes and not for compounds
+//             that radius: smaller ones let a cube into a wall. Bullet has it for convex shapes and not for compounds
 // All else is Bullet's default.
 #pragma once
 

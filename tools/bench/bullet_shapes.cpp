@@ -10,14 +10,24 @@
 namespace bench {
 namespace {
 
-constexpr double kMargin = 1e-3;      // m
-constexpr double kMarginShare = 0.02; // of the thinnest piece
-constexpr double kHalfGround = 50;    // m
-constexpr double kRounding = 1e-6;    // of a box of floats
+constexpr double kMargin = 1e-3;                            // m
+constexpr double kMarginShare = 0.02;                       // of the thinnest piece
+constexpr double kMostHalfGround = 50, kGroundShare = 2000; // m; radii of the largest body
+constexpr double kRounding = 1e-6;                          // of a box of floats
 
 Point xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
 
+double halfGroundOf(const brittle::WorldContents& contents) {
+    double largest = 0;
+    for (size_t b = 0; b < contents.bodies.size(); ++b)
+        if (contents.bodies[b].offset.w != 0) largest = std::max(largest, double{contents.shapes[b].inverse_inertia[2].w});
+    return std::min(kMostHalfGround, kGroundShare * largest);
+}
+
 } // namespace
+
+BulletShapes::BulletShapes(const brittle::WorldContents& contents)
+    : contents_(contents), half_ground_(halfGroundOf(contents)) {}
 
 btCollisionShape* BulletShapes::shapeOf(size_t body) {
     auto shape = makeShape(body);
@@ -25,7 +35,7 @@ btCollisionShape* BulletShapes::shapeOf(size_t body) {
     return shapes_.emplace_back(std::move(shape)).get();
 }
 
-Point BulletShapes::middleOf(size_t body) const { return {0, isPlane(body) ? -kHalfGround : 0, 0}; }
+Point BulletShapes::middleOf(size_t body) const { return {0, isPlane(body) ? -half_ground_ : 0, 0}; }
 
 double BulletShapes::halfExtent(size_t body) const {
     const gpu::uvec4& pieces = contents_.shapes[body].pieces;
@@ -64,7 +74,7 @@ double BulletShapes::marginOf(size_t body) const {
 
 std::unique_ptr<btCollisionShape> BulletShapes::makeShape(size_t body) {
     const gpu::uvec4& pieces = contents_.shapes[body].pieces;
-    if (isPlane(body)) return std::make_unique<btBoxShape>(vectorOf({kHalfGround, kHalfGround, kHalfGround}));
+    if (isPlane(body)) return std::make_unique<btBoxShape>(vectorOf({half_ground_, half_ground_, half_ground_}));
     if (isSurface(body)) return surfaceOf(body);
     if (pieces.y > 1) return compoundOf(body);
     if (const auto half = halfOf(cornersOf(pieces.x), kRounding)) return std::make_unique<btBoxShape>(*half);

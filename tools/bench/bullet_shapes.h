@@ -10,14 +10,14 @@
 namespace bench {
 
 // Boxes are btBoxShape, fixed triangles one btBvhTriangleMeshShape, bodies of several pieces btCompoundShape of hulls. A plane
-// is the upper side of a btBoxShape of 100 m, which is the ground of Bullet's own demos: on btStaticPlaneShape fewer cases
-// pass.
+// is the upper side of a btBoxShape, since on btStaticPlaneShape fewer cases pass. That box is 100 m wide, or 4000 radii of the
+// largest body if that is less: in floats a wider one is too coarse for bodies of millimeters.
 //
 // The margin is 1 mm, and at most 2 % of the thinnest piece; Bullet's default of 40 mm is larger than many of these bodies. A
 // btConvexHullShape has its margin around it. So a hull is drawn in by the margin first, and with it is as large as the body.
 class BulletShapes {
 public:
-    explicit BulletShapes(const brittle::WorldContents& contents) : contents_(contents) {}
+    explicit BulletShapes(const brittle::WorldContents& contents);
 
     // Of a body of the contents, in its frame. It lives as long as this object.
     btCollisionShape* shapeOf(size_t body);
@@ -37,6 +37,7 @@ private:
     std::unique_ptr<btCollisionShape> compoundOf(size_t body);
 
     const brittle::WorldContents& contents_;
+    double half_ground_; // m
     std::vector<std::unique_ptr<btTriangleMesh>> meshes_;
     std::vector<std::unique_ptr<btCollisionShape>> shapes_; // also those that others are made of
 };
