@@ -1,7 +1,5 @@
 #include "tools/bench/bullet_mover.h"
 
-#include <string>
-
 #ifdef BRITTLE_PEER_BULLET
 
 #include "modules/brittle/dynamics/pose.h"

@@ -2,20 +2,20 @@
 
 #include "tools/bench/bullet_shapes.h"
 
-#include "tools/bench/inset_hull.h"
+#include "tests/support/body_overlaps.h"
+#include "tests/support/inset_hull.h"
 
 #include <bit>
-#include <limits>
 
 namespace bench {
 namespace {
+
+using reference::operator-;
 
 constexpr double kMargin = 1e-3;                            // m
 constexpr double kMarginShare = 0.02;                       // of the thinnest piece
 constexpr double kMostHalfGround = 50, kGroundShare = 2000; // m; radii of the largest body
 constexpr double kRounding = 1e-6;                          // of a box of floats
-
-Point xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
 
 double halfGroundOf(const brittle::WorldContents& contents) {
     double largest = 0;
@@ -39,23 +39,15 @@ Point BulletShapes::middleOf(size_t body) const { return {0, isPlane(body) ? -ha
 
 double BulletShapes::halfExtent(size_t body) const {
     const gpu::uvec4& pieces = contents_.shapes[body].pieces;
-    Point low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
+    reference::Bounds bounds;
     for (uint32_t p = pieces.x; p < pieces.x + pieces.y; ++p)
         for (const Point& corner : cornersOf(p))
-            for (size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], corner[k]);
-                high[k] = std::max(high[k], corner[k]);
-            }
-    return std::min({high[0] - low[0], high[1] - low[1], high[2] - low[2]}) / 2;
+            bounds.grow(corner);
+    const Point size = bounds.upper - bounds.lower;
+    return std::min({size[0], size[1], size[2]}) / 2;
 }
 
-std::vector<Point> BulletShapes::cornersOf(size_t piece) const {
-    const gpu::HullRecord& hull = contents_.hulls.records[contents_.pieces[piece].ids.x];
-    std::vector<Point> corners;
-    for (uint32_t v = 0; v < hull.count.x; ++v)
-        corners.push_back(xyz(contents_.hulls.vertices[hull.first.x + v]));
-    return corners;
-}
+std::vector<Point> BulletShapes::cornersOf(size_t piece) const { return support::pieceInWorld(contents_, piece, {}).vertices; }
 
 bool BulletShapes::isPlane(size_t body) const {
     return (contents_.pieces[contents_.shapes[body].pieces.x].ids.z & PIECE_PLANE) != 0;
@@ -92,14 +84,8 @@ std::unique_ptr<btCollisionShape> BulletShapes::surfaceOf(size_t body) {
 }
 
 std::unique_ptr<btCollisionShape> BulletShapes::hullOf(size_t piece, double margin) const {
-    const gpu::HullRecord& record = contents_.hulls.records[contents_.pieces[piece].ids.x];
-    std::vector<HullPlane> planes;
-    for (uint32_t f = 0; f < record.count.y; ++f) {
-        const gpu::vec4& plane = contents_.hulls.faces[record.first.y + f].plane;
-        planes.push_back({xyz(plane), plane.w});
-    }
     auto hull = std::make_unique<btConvexHullShape>();
-    for (const Point& corner : insetCorners(planes, margin, record.center.w))
+    for (const Point& corner : support::insetCorners(support::pieceInWorld(contents_, piece, {}), margin))
         hull->addPoint(vectorOf(corner), false);
     hull->setMargin(static_cast<btScalar>(margin));
     hull->recalcLocalAabb();

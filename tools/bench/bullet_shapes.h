@@ -21,7 +21,7 @@ public:
 
     // Of a body of the contents, in its frame. It lives as long as this object.
     btCollisionShape* shapeOf(size_t body);
-    // Of the shape, in the body's frame.
+    // Where the middle of that shape is, in the body's frame.
     Point middleOf(size_t body) const;
     // m. Half of the body's least extent along its own axes.
     double halfExtent(size_t body) const;

@@ -154,10 +154,9 @@ constexpr const char* kFooter =
     "was measured, next to what is allowed. Breaks are made at every precision; only exact promises anything. `short` is what "
     "is\n"
     "known to be out of reach. With -o the matrix goes into results.json and onto the page of that folder, next to what\n"
-    "`brittle accuracy` has measured there. With --bullet a case of motion has a second row: Bullet moves the same scene, and "
-    "is\n"
-    "judged by the same checks. What Bullet cannot be judged by is left out. Its rows do not count. The exit code is 0 where "
-    "all that is promised holds.";
+    "`brittle accuracy` has measured there. With --bullet a case of motion has a second row: Bullet moves the\n"
+    "same scene and is judged by the same checks. It says which cases are left out since their checks ask for\n"
+    "more. The exit code is 0 where all that is promised holds; Bullet's rows promise nothing.";
 
 } // namespace
 
