@@ -65,6 +65,35 @@ TEST_F(HardCli, AddsToWhatAccuracyHasMeasured) {
     EXPECT_EQ(after["hard"][0]["name"], "mesh with a fin");
 }
 
+// A build without Bullet says what is missing.
+TEST_F(HardCli, JudgesBulletByTheSameChecks) {
+    const Outcome run = hard({"--only", "hard_38_cradle_10mm", "--bullet", "-o", path("page")});
+    if (run.exit_code != 0) {
+        EXPECT_EQ(run.exit_code, 4);
+        EXPECT_NE(run.err.find("install libbullet-dev"), std::string::npos) << run.err;
+        return;
+    }
+    EXPECT_NE(run.out.find("\n1 cases: 1 pass"), std::string::npos) << "rows of Bullet are none of ours: " << run.out;
+    EXPECT_NE(run.out.find("Bullet: 1 cases by the same checks: 1 pass"), std::string::npos) << run.out;
+    const json cases = results()["hard"];
+    ASSERT_EQ(cases.size(), 2u);
+    EXPECT_EQ(cases[0]["setting"], "as it is");
+    EXPECT_EQ(cases[1]["setting"], "Bullet");
+    EXPECT_EQ(cases[1]["name"], "hard_38_cradle_10mm");
+    EXPECT_EQ(cases[1]["has_passed"], true);
+}
+
+TEST_F(HardCli, BulletNeitherFailsTheCommandNorPassesWhatItCannotBeJudgedBy) {
+    const Outcome failing = hard({"--only", "hard_36_slide_wedge", "--bullet"});
+    if (failing.exit_code == 4) GTEST_SKIP() << failing.err;
+    EXPECT_EQ(failing.exit_code, 0) << failing.err;
+    EXPECT_NE(failing.out.find("Bullet: 1 cases by the same checks: 0 pass"), std::string::npos) << failing.out;
+    const Outcome left_out = hard({"--only", "hard_22_far_body", "--bullet"});
+    EXPECT_EQ(left_out.exit_code, 0) << left_out.err;
+    EXPECT_NE(left_out.out.find("Bullet   left out: "), std::string::npos) << left_out.out;
+    EXPECT_EQ(left_out.out.find("Bullet: "), std::string::npos) << left_out.out;
+}
+
 TEST_F(HardCli, RefusesWhatThereIsNot) {
     const auto expectRefused = [](const Outcome& run, const std::string& holds, int exit_code = 2) {
         EXPECT_EQ(run.exit_code, exit_code) << run.err;

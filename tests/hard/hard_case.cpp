@@ -10,7 +10,10 @@ namespace hard {
 support::MeasuredScene& Trial::scene(const brittle::SceneDescription& description) {
     auto& run = *scenes_.emplace_back(std::make_unique<support::MeasuredScene>(description));
     if (failure_) return run;
-    if (auto made = run.make(device_); !made) fail(made.error().message);
+    if (auto made = run.make(device_, make_mover_); !made) {
+        const bool cannot_move = make_mover_ && made.error().code == engine::ErrorCode::Feature;
+        cannot_move ? leaveOut(made.error().message) : fail(made.error().message);
+    }
     return run;
 }
 
@@ -27,8 +30,8 @@ bool Trial::step(support::MeasuredScene& run, uint32_t steps) {
     return !failure_;
 }
 
-void Trial::check(std::string what, double value, double allowed, std::string unit) {
-    if (!failure_) checks_.push_back({std::move(what), std::move(unit), value, allowed});
+void Trial::check(std::string what, double value, double allowed, std::string unit, std::string body) {
+    if (!failure_) checks_.push_back({std::move(what), std::move(unit), value, allowed, false, std::move(body)});
 }
 
 void Trial::knownShortfall(std::string what, double value, double allowed, std::string unit) {
@@ -37,6 +40,11 @@ void Trial::knownShortfall(std::string what, double value, double allowed, std::
 
 void Trial::fail(std::string why) {
     if (!failure_) failure_ = std::move(why);
+}
+
+void Trial::leaveOut(std::string why) {
+    is_left_out_ = true;
+    fail(std::move(why));
 }
 
 bool Trial::holds() const {

@@ -3,6 +3,9 @@
 #include "tests/hard/refusing_scenes.h"
 #include "tests/hard/resting_scenes.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace hard {
 namespace {
 
@@ -116,7 +119,15 @@ constexpr SceneCase kCases[] = {
     {"hard_43_tiny", tinyBodiesRest, 0, kLong},
 };
 
+constexpr decltype(SceneCase::measure) kJudgesOfMotion[] = {archStands,     heavyStands,    keepTheirEnergy, keepsItsSpeed,
+                                                            keepsItsTops,   liesForMinutes, passTheBlowOn,   stopWhereTheyTouch,
+                                                            tinyBodiesRest, towerStands};
+
 } // namespace
+
+bool judgesMotionAlone(const SceneCase& self) {
+    return std::ranges::find(kJudgesOfMotion, self.measure) != std::end(kJudgesOfMotion);
+}
 
 std::span<const SceneCase> sceneCases() { return kCases; }
 

@@ -20,10 +20,10 @@ double gravityOf(const MeasuredScene& run) { return brittle::length(run.scene().
 
 double massOf(const MeasuredScene& run, size_t body) { return 1 / double{run.state(body).offset.w}; }
 
-// A falling body has the velocity that it had half a substep before.
+// A falling body has the velocity that it had half a substep before, whoever moves it.
 double squareOfSpeed(const MeasuredScene& run, size_t body) {
     const gpu::vec4& v = run.state(body).velocity;
-    const double lag = 0.5 * run.scene().step.dt / run.scene().step.substeps;
+    const double lag = 0.5 * run.substep();
     const Double3 now = brittle::operator+(Double3{v.x, v.y, v.z}, brittle::operator*(lag, run.scene().gravity));
     return brittle::dot(now, now);
 }
@@ -127,22 +127,21 @@ void archStands(Trial& trial, const SceneCase& self) {
 // The wall's face is at 5 mm.
 void stopWhereTheyTouch(Trial& trial, const SceneCase& self) {
     MeasuredScene& run = trial.scene(self.name);
-    double deepest = 1e9;
+    const size_t count = run.scene().bodies.size();
+    const auto gap = [&](size_t b) { return run.place(b)[2] - 0.005 - run.scene().bodies[b].shape.size[2] / 2; };
+    std::vector<double> deepest(count, 1e9);
     while (run.stepsLeft() > 0 && trial.step(run, 1))
-        for (size_t b = 0; b < run.scene().bodies.size(); ++b)
-            deepest = std::min(deepest, run.place(b)[2] - 0.005 - run.scene().bodies[b].shape.size[2] / 2);
+        for (size_t b = 0; b < count; ++b)
+            deepest[b] = std::min(deepest[b], gap(b));
     if (trial.failure()) return;
-    double off = 0, aside = 0, turning = 0;
-    for (size_t b = 0; b < run.scene().bodies.size(); ++b) {
-        off = std::max(off, std::fabs(run.place(b)[2] - 0.005 - run.scene().bodies[b].shape.size[2] / 2));
-        aside = std::max(aside, run.speed(b));
-        turning = std::max(turning, spinOf(run, b));
-    }
-    trial.check("depth in the wall", std::max(-deepest, 0.0), 1e-4, "m");
     const double way = self.parameter * run.scene().step.dt; // in a step
-    trial.check("place, off from where it touches", off, 1e-3 * way, "m");
-    trial.check("speed that is left", aside, 1e-3 * self.parameter, "m/s");
-    trial.check("turning", turning, 0.1, "rad/s");
+    for (size_t b = 0; b < count; ++b) {
+        const std::string body = "body " + std::to_string(b);
+        trial.check("depth in the wall", std::max(-deepest[b], 0.0), 1e-4, "m", body);
+        trial.check("place, off from where it touches", std::fabs(gap(b)), 1e-3 * way, "m", body);
+        trial.check("speed that is left", run.speed(b), 1e-3 * self.parameter, "m/s", body);
+        trial.check("turning", spinOf(run, b), 0.1, "rad/s", body);
+    }
 }
 
 void liesForMinutes(Trial& trial, const SceneCase& self) {

@@ -37,6 +37,18 @@ double bulgeOf(const gpu::HullRecord& hull, double angle) {
     return (sizeOf(xyz(hull.center)) + hull.center.w) * (1 - std::cos(std::min(angle, 2 * std::numbers::pi) / 2));
 }
 
+class WorldMover : public Mover {
+public:
+    WorldMover(brittle::World& world, double substep) : world_(world), substep_(substep) {}
+    engine::Result<void> step(uint32_t steps) override { return world_.step(steps); }
+    engine::Result<std::vector<gpu::BodyState>> bodies() override { return world_.bodies(); }
+    double substep() const override { return substep_; }
+
+private:
+    brittle::World& world_;
+    double substep_;
+};
+
 } // namespace
 
 double marginOf(const brittle::StepDescription& step) {
@@ -44,7 +56,7 @@ double marginOf(const brittle::StepDescription& step) {
     return step.margin > 0 ? step.margin : 0.02 * sixtieths * sixtieths;
 }
 
-engine::Result<void> MeasuredScene::make(engine::Device& device) {
+engine::Result<void> MeasuredScene::make(engine::Device& device, const MakeMover& make_mover) {
     std::unique_ptr<brittle::Fracture> fracture;
     if (hasCells(scene_)) {
         auto made = brittle::Fracture::create(device);
@@ -53,19 +65,28 @@ engine::Result<void> MeasuredScene::make(engine::Device& device) {
     }
     auto contents = brittle::contentsOf(scene_, ".", fracture.get());
     if (!contents) return contents.error();
+    contents_ = std::move(*contents);
+    first_ = last_ = now_ = contents_.bodies;
+    if (!make_mover) return makeWorld(device);
+    auto mover = make_mover(scene_, contents_);
+    if (!mover) return mover.error();
+    mover_ = std::move(*mover);
+    return {};
+}
+
+engine::Result<void> MeasuredScene::makeWorld(engine::Device& device) {
     const auto settings = brittle::settingsOf(scene_);
     if (!settings) return settings.error();
-    contents_ = std::move(*contents);
     auto world = brittle::World::create(device, contents_, *settings, brittle::budgetOf(scene_));
     if (!world) return world.error();
     world_ = std::move(*world);
-    first_ = last_ = now_ = contents_.bodies;
+    mover_ = std::make_unique<WorldMover>(*world_, scene_.step.dt / scene_.step.substeps);
     return {};
 }
 
 engine::Result<void> MeasuredScene::advance(uint32_t steps) {
-    if (auto done = world_->step(steps); !done) return done;
-    auto bodies = world_->bodies();
+    if (auto done = mover_->step(steps); !done) return done;
+    auto bodies = mover_->bodies();
     if (!bodies) return bodies.error();
     last_ = std::exchange(now_, std::move(*bodies));
     made_ += steps;

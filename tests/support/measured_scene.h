@@ -1,9 +1,11 @@
-// A scene on the device, and what can be measured of it in double precision; free of any test's framework.
+// A scene that Brittle or another engine moves, and what can be measured of it in double precision; free of any test's
+// framework.
 #pragma once
 
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "tests/reference/boxes.h"
 #include "tests/support/body_overlaps.h"
+#include "tests/support/mover.h"
 
 #include <memory>
 #include <utility>
@@ -18,13 +20,15 @@ class MeasuredScene {
 public:
     explicit MeasuredScene(brittle::SceneDescription scene) : scene_(std::move(scene)) {}
 
-    // Once, before all else. Errors: those of fracture, of contents and of worlds.
-    engine::Result<void> make(engine::Device& device);
+    // Once, before all else. `make_mover` makes the mover; without one it is a world on the device. Errors: those of fracture,
+    // of contents, of worlds and of the mover.
+    engine::Result<void> make(engine::Device& device, const MakeMover& make_mover = {});
     engine::Result<void> advance(uint32_t steps); // and reads the bodies
     uint32_t stepsLeft() const { return scene_.step.steps - made_; }
 
     const brittle::SceneDescription& scene() const { return scene_; }
-    brittle::World& world() { return *world_; }
+    brittle::World& world() { return *world_; }          // only where no other engine moves the scene
+    double substep() const { return mover_->substep(); } // see Mover
     size_t bodyCount() const { return now_.size(); }
     bool moves(size_t body) const { return now_[body].offset.w != 0; }
     const gpu::BodyState& state(size_t body) const { return now_[body]; }
@@ -49,9 +53,12 @@ public:
     std::vector<reference::SolidBox> sweptBoxes(double more) const;
 
 private:
+    engine::Result<void> makeWorld(engine::Device& device);
+
     brittle::SceneDescription scene_;
     brittle::WorldContents contents_;
-    std::unique_ptr<brittle::World> world_;
+    std::unique_ptr<brittle::World> world_; // none where another engine moves the scene
+    std::unique_ptr<Mover> mover_;
     std::vector<gpu::BodyState> first_, last_, now_;
     uint32_t made_ = 0;
 };

@@ -24,7 +24,8 @@ if(TARGET brittle_module)
     add_library(brittle_bench STATIC ${bench_dir}/bench.cpp ${bench_dir}/bench_breaking.cpp ${bench_dir}/bench_broad_phase.cpp ${bench_dir}/bench_caps.cpp
         ${bench_dir}/bench_cells.cpp ${bench_dir}/bench_colliders.cpp ${bench_dir}/bench_narrow_phase.cpp
         ${bench_dir}/bench_piles.cpp ${bench_dir}/bench_shatter.cpp ${bench_dir}/bench_startup.cpp
-        ${bench_dir}/bench_variants.cpp ${bench_dir}/our_side.cpp ${bench_dir}/peer_bullet.cpp ${bench_dir}/peer_cgal.cpp
+        ${bench_dir}/bench_variants.cpp ${bench_dir}/bullet_mover.cpp ${bench_dir}/bullet_shapes.cpp
+        ${bench_dir}/our_side.cpp ${bench_dir}/peer_bullet.cpp ${bench_dir}/peer_cgal.cpp
         ${bench_dir}/phase_run.cpp)
     target_link_libraries(brittle_bench PUBLIC brittle_module PRIVATE brittle_bench_inputs brittle_device_check brittle_measures)
     if(BULLET_HEADERS AND BULLET_DYNAMICS AND BULLET_COLLISION AND BULLET_MATH)

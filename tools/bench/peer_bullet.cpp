@@ -2,34 +2,14 @@
 
 #ifdef BRITTLE_PEER_BULLET
 
-#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
-#include <btBulletDynamicsCommon.h>
+#include "tools/bench/bullet_types.h"
 
-#include <algorithm>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+
 #include <chrono>
-#include <cmath>
-#include <optional>
 
 namespace bench {
 namespace {
-
-btVector3 vectorOf(const Point& p) {
-    return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};
-}
-
-Point pointOf(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-// The half extents of corners that are those of a box about the body's center, along its axes.
-std::optional<btVector3> halfOf(const std::vector<Point>& corners) {
-    Point half = {0, 0, 0};
-    for (const Point& p : corners)
-        for (size_t k = 0; k < 3; ++k)
-            half[k] = std::max(half[k], std::fabs(p[k]));
-    const bool is_box = corners.size() == 8 && std::ranges::all_of(corners, [&](const Point& p) {
-                            return std::fabs(p[0]) == half[0] && std::fabs(p[1]) == half[1] && std::fabs(p[2]) == half[2];
-                        });
-    return is_box ? std::optional(vectorOf(half)) : std::nullopt;
-}
 
 Point middleOf(const std::vector<Point>& corners) {
     Point low = corners.front(), high = low;
@@ -57,9 +37,7 @@ public:
 
     void add(const SolidBody& body) {
         const Point shift = body.mass == 0 ? middleOf(body.corners) : Point{0, 0, 0};
-        const btTransform turned(btQuaternion(static_cast<btScalar>(body.turn[0]), static_cast<btScalar>(body.turn[1]),
-                                              static_cast<btScalar>(body.turn[2]), static_cast<btScalar>(body.turn[3])),
-                                 vectorOf(body.place));
+        const btTransform turned = transformOf(body.place, body.turn);
         shifts_.push_back(vectorOf(shift));
         shapes_.push_back(shapeOf(body, shift));
         btRigidBody::btRigidBodyConstructionInfo made(static_cast<btScalar>(body.mass), nullptr, shapes_.back().get(),

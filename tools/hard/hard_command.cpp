@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 namespace cli {
@@ -43,10 +44,17 @@ void printRow(const HardCase& one) {
     std::fflush(stdout);
 }
 
-// Only exact promises what is asked of a break; the others are there to be compared.
-bool isPromised(const HardCase& one) { return one.setting != "double" && one.setting != "fast"; }
+bool isBullet(const HardCase& one) { return one.setting == hard::kBulletSetting; }
 
-void printSum(const std::vector<HardCase>& outcomes) {
+// Only exact promises what is asked of a break; the others are there to be compared.
+bool isPromised(const HardCase& one) { return one.setting != "double" && one.setting != "fast" && !isBullet(one); }
+
+void printBulletSum(const std::vector<HardCase>& rows) {
+    const auto passing = std::ranges::count_if(rows, [](const HardCase& c) { return c.has_passed; });
+    std::printf("Bullet: %zu cases by the same checks: %td pass\n", rows.size(), passing);
+}
+
+void printOurSum(const std::vector<HardCase>& outcomes) {
     const auto count = [&](auto&& is) { return std::ranges::count_if(outcomes, is); };
     std::printf(
         "\n%zu cases: %td pass, %td of them short of what is known to be out of reach; %td fail at a precision that promises "
@@ -55,6 +63,13 @@ void printSum(const std::vector<HardCase>& outcomes) {
         count([](const HardCase& c) { return c.has_passed && c.is_known_shortfall; }),
         count([](const HardCase& c) { return !c.has_passed && !isPromised(c); }),
         count([](const HardCase& c) { return !c.has_passed && isPromised(c); }));
+}
+
+void printSum(const std::vector<HardCase>& outcomes) {
+    std::vector<HardCase> ours, bullets;
+    std::ranges::partition_copy(outcomes, std::back_inserter(bullets), std::back_inserter(ours), isBullet);
+    printOurSum(ours);
+    if (!bullets.empty()) printBulletSum(bullets);
 }
 
 // Goes by how long the cases took so far, which are not alike: no more than a hint.
@@ -74,7 +89,11 @@ hard::RunWatch watchOnTerminal() {
         clearProgress();
         printRow(one);
     };
-    return {begins, ended};
+    const auto left_out = [](const std::string& name, const std::string& why) {
+        clearProgress();
+        std::printf("%-46s %-8s left out: %s\n", name.c_str(), hard::kBulletSetting, why.c_str());
+    };
+    return {begins, ended, left_out};
 }
 
 // What `brittle accuracy` has left in the folder, to which the matrix is added; else there is nothing but the matrix.
@@ -126,6 +145,7 @@ constexpr const char* kFooter =
     "  brittle hard\n"
     "  brittle hard --only plate\n"
     "  brittle hard -o out/accuracy\n"
+    "  brittle hard --only hard_38 --bullet\n"
     "\n"
     "Sites in ties and crowds, models that are thin, tiny, huge, far away or of slivers, fragments of fragments, meshes that "
     "bound no\n"
@@ -134,7 +154,9 @@ constexpr const char* kFooter =
     "was measured, next to what is allowed. Breaks are made at every precision; only exact promises anything. `short` is what "
     "is\n"
     "known to be out of reach. With -o the matrix goes into results.json and onto the page of that folder, next to what\n"
-    "`brittle accuracy` has measured there. The exit code is 0 where all that is promised holds.";
+    "`brittle accuracy` has measured there. With --bullet a case of motion has a second row: Bullet moves the\n"
+    "same scene and is judged by the same checks. It says which cases are left out since their checks ask for\n"
+    "more. The exit code is 0 where all that is promised holds; Bullet's rows promise nothing.";
 
 } // namespace
 
@@ -146,6 +168,7 @@ void addHard(CLI::App& app, int& exit_code) {
         ->option_text("TEXT")
         ->check(someText);
     command->add_flag("--long", options->run.is_long, "also those that take minutes each");
+    command->add_flag("--bullet", options->run.with_bullet, "also Bullet, by the same checks; where the build has it");
     command->add_flag("--list", options->list, "run nothing: the names of all cases");
     command->add_option("-o,--output", options->folder, "a folder for results.json and report.html")
         ->option_text("DIR")

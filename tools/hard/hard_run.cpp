@@ -3,6 +3,7 @@
 #include "tests/hard/hard_fractures.h"
 #include "tests/hard/hard_meshes.h"
 #include "tests/hard/hard_worlds.h"
+#include "tools/bench/bullet_mover.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,12 +22,25 @@ constexpr Precision kPrecisions[] = {Precision::Exact, Precision::Double, Precis
 struct Job {
     std::string name, setting;
     std::function<FractureCost(Trial&)> run; // a cost of nothing: by the clock
+    support::MakeMover make_mover = {};      // none: Brittle moves scenes
 };
 
 // How much of what is allowed is used up.
 double useOf(const Check& check) {
     if (check.allowed > 0) return check.value / check.allowed;
     return check.value > check.allowed ? std::numeric_limits<double>::infinity() : 0;
+}
+
+// Such as " (body 1, body 2)"; empty where no check of a single body fails.
+std::string failingBodies(const std::vector<Check>& checks) {
+    std::vector<std::string> names;
+    for (const Check& check : checks)
+        if (!check.holds() && !check.body.empty() && std::ranges::find(names, check.body) == names.end())
+            names.push_back(check.body);
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? " (" : ", ") + name;
+    return text.empty() ? text : text + ")";
 }
 
 HardCase outcomeOf(const Job& job, const Trial& trial, const FractureCost& cost) {
@@ -40,7 +54,7 @@ HardCase outcomeOf(const Job& job, const Trial& trial, const FractureCost& cost)
     const auto& checks = trial.checks();
     const auto worst = std::ranges::max_element(checks, {}, useOf);
     if (worst == checks.end()) return outcome;
-    outcome.worst_kind = worst->what;
+    outcome.worst_kind = worst->what + failingBodies(checks);
     outcome.unit = worst->unit;
     outcome.worst_error = worst->value;
     outcome.allowed = worst->allowed;
@@ -65,41 +79,63 @@ void addJob(std::vector<Job>& jobs, const char* name, const std::function<void(T
                     }});
 }
 
-void addOthers(std::vector<Job>& jobs, bool is_long) {
+void measureMotion(Trial& trial, const SceneCase& one) {
+    if (judgesMotionAlone(one)) return one.measure(trial, one);
+    trial.leaveOut("its checks ask for more than how bodies move");
+}
+
+void addScene(std::vector<Job>& jobs, const SceneCase& one, bool with_bullet) {
+    addJob(jobs, one.name, [&one](Trial& trial) { one.measure(trial, one); });
+    if (!with_bullet) return;
+    addJob(jobs, one.name, [&one](Trial& trial) { measureMotion(trial, one); });
+    jobs.back().setting = kBulletSetting;
+    jobs.back().make_mover = bench::makeBulletMover;
+}
+
+void addOthers(std::vector<Job>& jobs, const RunOptions& options) {
     for (const MeshCase& one : meshCases())
         addJob(jobs, one.name, [&one](Trial& trial) { measureMesh(trial, one); });
     for (const PoolCase& one : poolCases())
         addJob(jobs, one.name, [&one](Trial& trial) { measurePool(trial, one); });
     for (const SceneCase& one : sceneCases())
-        if (is_long || !one.is_long) addJob(jobs, one.name, [&one](Trial& trial) { one.measure(trial, one); });
+        if (options.is_long || !one.is_long) addScene(jobs, one, options.with_bullet);
 }
 
-HardCase runJob(engine::Device& device, const Job& job) {
-    Trial trial(device);
+// None of what is left out, of which `watch` is told.
+std::optional<HardCase> runJob(engine::Device& device, const Job& job, const RunWatch& watch) {
+    Trial trial(device, job.make_mover);
     const auto begun = std::chrono::steady_clock::now();
     FractureCost cost = job.run(trial);
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begun;
     if (cost.ms == 0) cost.ms = taken.count();
-    return outcomeOf(job, trial, cost);
+    HardCase outcome = outcomeOf(job, trial, cost);
+    if (!trial.isLeftOut()) {
+        watch.ended(outcome);
+        return outcome;
+    }
+    watch.left_out(job.name, outcome.why);
+    return std::nullopt;
 }
 
 } // namespace
 
 engine::Result<std::vector<HardCase>> runHardCases(engine::Device& device, const RunOptions& options, const RunWatch& watch) {
+    if (options.with_bullet && !bench::hasBullet())
+        return engine::Error{engine::ErrorCode::Feature,
+                             "this build has no Bullet; install libbullet-dev and build again, or leave out --bullet"};
     auto made = brittle::Fracture::create(device);
     if (!made) return made.error();
     std::vector<Job> jobs;
     addFractures(jobs, std::shared_ptr<brittle::Fracture>(std::move(*made)));
-    addOthers(jobs, options.is_long);
+    addOthers(jobs, options);
     std::erase_if(jobs, [&](const Job& job) { return job.name.find(options.only) == std::string::npos; });
     if (jobs.empty())
         return engine::Error{engine::ErrorCode::BadInput,
                              "no hard case has \"" + options.only + "\" in its name; brittle hard --list names them all"};
     std::vector<HardCase> outcomes;
-    for (const Job& job : jobs) {
-        watch.begins({outcomes.size(), jobs.size(), job.name, job.setting});
-        outcomes.push_back(runJob(device, job));
-        watch.ended(outcomes.back());
+    for (size_t k = 0; k < jobs.size(); ++k) {
+        watch.begins({k, jobs.size(), jobs[k].name, jobs[k].setting});
+        if (auto outcome = runJob(device, jobs[k], watch)) outcomes.push_back(std::move(*outcome));
     }
     return outcomes;
 }

@@ -1,4 +1,4 @@
-// Runs the hard cases (tests/hard), breaks at every precision, all else as it is.
+// Runs the hard cases (tests/hard), breaks at every precision, all else as it is, and scenes of motion by Bullet as well.
 #pragma once
 
 #include "engine/device.h"
@@ -13,7 +13,10 @@ namespace hard {
 struct RunOptions {
     std::string only; // cases whose name has this in it; empty: all
     bool is_long = false;
+    bool with_bullet = false;
 };
+
+constexpr const char* kBulletSetting = "Bullet"; // of rows that judge Bullet, which promise nothing
 
 struct RunStep {
     size_t number = 0, count = 0; // the first is 0
@@ -24,10 +27,12 @@ struct RunStep {
 struct RunWatch {
     std::function<void(const RunStep&)> begins;
     std::function<void(const accuracy::HardCase&)> ended;
+    std::function<void(const std::string& name, const std::string& why)> left_out; // by Bullet, and of no outcome
 };
 
-// Errors: BadInput, where no case has such a name; Device, where fracture cannot be made. A case that fails is a case that says
-// why.
+// With Bullet, a case of motion is run by Brittle and then by Bullet, in the same steps, and judged by the same checks. Errors:
+// BadInput, where no case has such a name; Feature, where Bullet is not in the build; Device, where fracture cannot be made. A
+// case that fails is a case that says why.
 engine::Result<std::vector<accuracy::HardCase>> runHardCases(engine::Device& device, const RunOptions& options,
                                                              const RunWatch& watch);
 
