@@ -1,5 +1,5 @@
-// How many bodies a small island is high: the longest of the shortest ways along contacts from its bodies to a body that
-// does not move. 1 if it touches no such body.
+// // How many bodies a small island is high: the longest of the shortest ways along contacts that may lean (lib/pace.glsl), from its bodies
+// to a body that does not move. 1 if it touches no such body.
 //
 // Wants `solver_contacts`, `solver_bodies` and `heights`, which has a word for each body, declared.
 const uint kUnknown = 0x7fffffffu, kMostRounds = 8000u; // over vectors of 8 contacts (lib/pace.glsl)
@@ -18,6 +18,7 @@ void raise(uint body, uint from, uint level) {
 void raiseNeighbors(uint lane, uvec2 range, uint level) {
     for (uint c = range.x + lane; c < range.y; c += LANES) {
         uvec4 ids = solver_contacts[c].ids;
+        if (solver_contacts[c].pace.w == 0u) continue;
         uint a = heightOf(ids.x), b = heightOf(ids.y);
         raise(ids.y, a, level);
         raise(ids.x, b, level);

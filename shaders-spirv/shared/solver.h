@@ -64,9 +64,8 @@ GPU_NAMESPACE_BEGIN
 // With no more contacts than this, of the world or of an island, one workgroup walks through all colors: its barriers cost less
 // than dispatches.
 #define FEW_CONTACTS 1024
-// Dispatches of a step of small islands, where a lane may take few turns (lib/pace.glsl), by the soft solver and the hard one.
-#define ISLAND_PARTS 8
-#define ISLAND_PARTS_HARD 16
+// Dispatches of a step of small islands, where a lane may take few turns (lib/pace.glsl).
+#define ISLAND_PARTS 16
 
 // A point that comes in faster than this is hit by a blow (lib/blow_speed.glsl).
 #define BLOW_FALLS 6.116208 /* times the speed that gravity gives in a step */
@@ -132,7 +131,7 @@ struct SolverContact {
     vec4 rub;      // impulses along the tangent, across it, of twisting; w: the most that overlap is pushed out with, m/s
     vec4 rub_mass; // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
     vec4 loads;    // of the points: what of their impulse does not make them give way
-    uvec4 pace;    // substeps of its last step, 0 if it is new; of this one
+    uvec4 pace;    // substeps of its last step, 0 if it is new; of this one; 1: carries loads; 1: may lean (lib/pace.glsl)
     vec4 first;    // impulses of the points when the substep began
     // Of sweeps that go on until bodies part (solve_islands): of the points before the last one,
     vec4 before;                 // impulses

@@ -52,7 +52,7 @@ float wholeStep() { return push_.gravity.w; }
 #include "lib/island_heights.glsl"
 #include "lib/pace.glsl"
 
-shared uint most_sides;
+shared uint most_sides, leaning; // contacts that lean
 #ifdef BOUNCE
 shared uint lively, met;
 #include "lib/meet_contact.glsl"
@@ -79,6 +79,9 @@ void listMembers(uint lane, uvec2 range, uint first) {
         uvec4 ids = solver_contacts[c].ids;
         listMember(ids.x, c, first);
         listMember(ids.y, c, first);
+        bool leans = mayLean(c);
+        solver_contacts[c].pace.w = leans ? 1u : 0u;
+        if (leans) atomicAdd(leaning, 1u);
     }
 }
 
@@ -208,14 +211,14 @@ void main() {
     if (!begins && members[first - 1u] >= solver_contacts[range.x].pace.y) return;
     if (lane == 0u) {
         member_count = begins ? 0u : members[first - 2u];
-        most_sides = 0u;
+        most_sides = leaning = 0u;
     }
     barrier();
     uvec2 to_begin = begins ? range : range.xx;
     listMembers(lane, to_begin, first);
     sync();
     uint height = heightOfIsland(lane, to_begin), turns = turnsOf(range, member_count, most_sides);
-    bool is_heap = isHeap(range.y - range.x, member_count);
+    bool is_heap = isHeap(leaning, member_count);
     uint most = affordable(is_heap, turns);
     bool carries;
     uint chosen = paceOf(lane, to_begin, height, is_heap, most, carries), pace = begins ? chosen : solver_contacts[range.x].pace.y;

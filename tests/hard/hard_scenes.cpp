@@ -70,6 +70,8 @@ constexpr SceneCase kCases[] = {
     {"hard_34_stack_40_of_2mm", towerStands, 0, kLong},
     {"hard_34_stack_20_of_10m_10g", towerStands, 0, kLong},
     {"hard_34_stack_4_of_5cm_10g", towerStands, 0, kLong},
+    {"hard_34_stack_5_of_2mm_10g", towerStands},
+    {"hard_34_stack_40_of_2mm_10g", towerStands, 0, kLong},
     {"hard_35_dropped_5", heavyStands, 0, kLong},
     {"hard_35_dropped_10", heavyStands},
     {"hard_35_dropped_30", heavyStands, 0, kLong},

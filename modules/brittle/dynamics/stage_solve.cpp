@@ -120,7 +120,7 @@ void recordSmallIslands(const Step& s) {
     push.substeps = set.substeps;
     push.most_substeps = std::max(set.substeps, set.most_substeps);
     push.iterations = set.iterations;
-    push.most_parts = set.hard_solver ? ISLAND_PARTS_HARD : ISLAND_PARTS;
+    push.most_parts = ISLAND_PARTS;
     push.stiffer = set.hard_solver ? 2 : 1;
     push.heaps_too = set.hard_solver ? 1 : 0;
     push.parts = s.many_lanes ? 1 : std::max(push.most_parts, set.substeps); // one part makes at least one substep

@@ -119,6 +119,8 @@ const std::vector<SceneEntry>& builtinScenes() {
         {"hard_34_stack_40_of_2mm", tallStack, 7},
         {"hard_34_stack_20_of_10m_10g", tallStack, 8},
         {"hard_34_stack_4_of_5cm_10g", tallStack, 9},
+        {"hard_34_stack_5_of_2mm_10g", tallStack, 10},
+        {"hard_34_stack_40_of_2mm_10g", tallStack, 11},
         {"hard_35_dropped_5", heavyDropped, 5},
         {"hard_35_dropped_10", heavyDropped, 10},
         {"hard_35_dropped_30", heavyDropped, 30},

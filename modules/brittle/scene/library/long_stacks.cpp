@@ -24,7 +24,9 @@ constexpr std::array<Tall, kTallStacks> kTall = {{{8, 1, 9.81, 60},
                                                   {40, 1, 9.81, 60},
                                                   {40, 0.002, 9.81, 10},
                                                   {20, 10, 98.1, 60},
-                                                  {4, 0.05, 98.1, 60}}};
+                                                  {4, 0.05, 98.1, 60},
+                                                  {5, 0.002, 98.1, 10},
+                                                  {40, 0.002, 98.1, 10}}};
 
 // Corners of an upright prism with `sides` sides.
 std::vector<Double3> cylinder(double radius, double height, uint32_t sides) {

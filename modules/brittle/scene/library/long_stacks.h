@@ -5,7 +5,7 @@
 
 namespace brittle::library {
 
-constexpr uint32_t kTallStacks = 10;
+constexpr uint32_t kTallStacks = 12;
 
 SceneDescription tallStack(uint32_t number);           // 34; below kTallStacks: a row of sizes, heights and gravities
 SceneDescription heavyDropped(uint32_t ratio);         // 35; kg, on 1 kg
