@@ -188,7 +188,6 @@ void recordColors(const Step& s) {
 }
 
 void recordSolve(const Step& s) {
-    const StepBuffers& b = s.b.step;
     const gpu::SolverPush push = solverPush(s);
     s.record.commands().beginLabel("solve");
     const bool contacts = s.has(Effect::Contacts);
