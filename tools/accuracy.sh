@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-tools/setup.sh
+tools/setup.sh test bench
 tools/build.sh release brittle brittle_peer_cgal
 build/release/bin/brittle accuracy "$@" -o out/accuracy
 

@@ -3,6 +3,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-tools/setup.sh
+tools/setup.sh bench
 tools/build.sh release brittle brittle_peer_cgal
 exec build/release/bin/brittle bench "$@" </dev/null

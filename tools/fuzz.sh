@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 seconds=${1:-1800}
 case $seconds in *[!0-9]* | "") echo "usage: tools/fuzz.sh [SECONDS]" >&2; exit 2 ;; esac
-tools/setup.sh
+tools/setup.sh test
 tools/build.sh fuzz
 cd build/fuzz
 mkdir -p findings logs

@@ -73,7 +73,7 @@ remove_unpacked() {
 bin=build/release/bin
 tests=(brittle_tests_engine brittle_tests_kernel brittle_tests_module brittle_tests_abi)
 if $build; then
-  tools/setup.sh
+  tools/setup.sh test
   tools/build.sh release brittle brittle_library "${tests[@]}"
 fi
 for program in brittle "${tests[@]}"; do

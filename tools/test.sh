@@ -17,7 +17,7 @@ case "${1:-}" in
   *) echo "usage: tools/test.sh [--long]" >&2; exit 2 ;;
 esac
 
-tools/setup.sh
+tools/setup.sh test bench
 logs=build/test-logs
 mkdir -p "$logs"
 summary=()

@@ -23,7 +23,7 @@ class AccuracyPage : public support::FolderTest {
 protected:
     void SetUp() override {
         FolderTest::SetUp();
-        if (Browser::program().empty()) GTEST_SKIP() << "there is no chromium to show the page in; tools/setup.sh installs it";
+        if (Browser::program().empty()) GTEST_SKIP() << "there is no chromium to show the page in; tools/setup.sh test installs it";
     }
     // The page of these results.
     std::filesystem::path pageOf(const json& results) const {

@@ -99,7 +99,7 @@ check_headless() {
 # Both ways of drawing: on the main thread, and on a thread of its own.
 check_screen() {
   command -v Xvfb xvfb-run >/dev/null || {
-    echo "SKIPPED: there is no Xvfb; tools/setup.sh installs it"
+    echo "SKIPPED: there is no Xvfb; tools/setup.sh test installs it"
     exit 77
   }
   screen=(xvfb-run --auto-servernum --server-args="-screen 0 1280x720x24")
