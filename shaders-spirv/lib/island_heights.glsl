@@ -1,4 +1,4 @@
-// // How many bodies a small island is high: the longest of the shortest ways along contacts that may lean (lib/pace.glsl), from its bodies
+// How many bodies a small island is high: the longest of the shortest ways along contacts that may lean (lib/pace.glsl), from its bodies
 // to a body that does not move. 1 if it touches no such body.
 //
 // Wants `solver_contacts`, `solver_bodies` and `heights`, which has a word for each body, declared.

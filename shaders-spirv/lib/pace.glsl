@@ -73,10 +73,10 @@ float edgeOf(uint body) {
     return inverseMassOf(body) != 0.0 ? edge : 3e38;
 }
 
-// // Whether one of the bodies may lean on the other in this step. Where gravity moves bodies by about their size in a step, contacts are
+// Tells whether one body of a contact may lean on the other in this step. Where gravity moves bodies by about their size in a step, contacts are
 // looked for as far away: a cube of a stack has some with all others. Such a contact makes no stack lower, and no stack a heap.
-const float kLeaning = 0.9; // edges of the smaller body: points further apart do not count,
-const float kFarFall = 0.5; // if a body at rest would fall by so many in a step
+const float kLeaning = 0.9; // edges of the smaller body: points further apart do not count
+const float kFarFall = 0.5; // edges: the rule holds if a body at rest would fall this far in a step
 
 bool mayLean(uint c) {
     uvec4 ids = solver_contacts[c].ids;
@@ -112,7 +112,6 @@ float paceOfContact(uint c, float g, float height) {
     float buckles = member_count == 1u ? kLone : height + kBase;
     return push_.stiffer * 60.0 * push_.gravity.w * sqrt(kGive * g / edge * weightsOn(c, g, height) * buckles);
 }
-
 
 float thicknessOf(uint body) { return inverseMassOf(body) != 0.0 ? 2.0 * uintBitsToFloat(shapes[body].pieces.z) : 3e38; }
 

@@ -167,7 +167,7 @@ struct SolverPush {
     uint substeps;      // of a step, at the least
 };
 
-// // For prepare_contacts.
+// For prepare_contacts.
 struct PreparePush {
     vec4 gravity;     // w: length of a substep, s
     uint substeps;    // of a step, at the least
@@ -179,7 +179,7 @@ struct PreparePush {
 struct PacePush {
     vec4 gravity;         // w: length of the step, s
     float hertz, damping; // of the spring between bodies that move, with `substeps`
-    
+    // Each contact has the speed that overlap is pushed out with (SolverContact::rub).
     float least_bounce;   // m/s
     uint substeps;        // at the least
     uint most_substeps;

@@ -45,20 +45,15 @@ public:
         return fill(contents);
     }
 
-    Result<void> makeStrikes() override {
-        auto made = Strikes::create(device_, sizes_.bodies, room_.pools.capacity[POOL_PIECES]);
-        if (!made) return made.error();
-        strikes_ = std::move(*made);
-        return {};
+    Result<std::unique_ptr<Strikes>> makeStrikes() const override {
+        return Strikes::create(device_, sizes_.bodies, room_.pools.capacity[POOL_PIECES]);
     }
-    bool hasStrikes() const override { return strikes_ != nullptr; }
-    std::unique_ptr<Strikes> handOverStrikes() override { return std::move(strikes_); }
-    void takeOverStrikes(std::unique_ptr<Strikes> strikes) override { strikes_ = std::move(strikes); }
-    Result<void> forgetStrikes() override { return strikes_ ? strikes_->forget() : Result<void>(); }
 
-    void recordStrikes(const Step& s, const HandBlows& by_hand) override { strikes_->recordJudging(s, l_, by_hand); }
+    void recordStrikes(const Step& s, const Strikes& strikes, const HandBlows& by_hand) const override {
+        strikes.recordJudging(s, l_, by_hand);
+    }
 
-    Result<void> recordBlows(const Step& s) override {
+    Result<void> recordBlows(const Step& s, const Strikes* strikes) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("blows");
         s.record.clear({p_.hardest, event_.b.counts, event_.b.args});
@@ -69,7 +64,7 @@ public:
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.touches, l_.breakable, l_.cards,
                       s.b.steps, p_.blows, p_.turning, s.b.shapes});
         if (auto recorded = recordTurning(s, l_, p_); !recorded) return recorded;
-        if (strikes_) strikes_->recordRaising(s, l_, p_);
+        if (strikes != nullptr) strikes->recordRaising(s, l_, p_);
         const uint32_t publish[] = {COUNT_STRUCK, COUNT_BOX_PAIRS, COUNT_BLOWS};
         s.record.runGroups("publish_if", 1, publish, {world, s.record.args()});
         recordOrder(s);
@@ -80,12 +75,12 @@ public:
         s.record.run("leave_unmet", Length::counted(COUNT_STRUCK), meeting,
                      {world, s.now.contacts, s.b.bodies, s.b.step.solver_bodies, s.b.step.shares, p_.blows, p_.chosen,
                       s.b.step.touches});
-        if (strikes_) strikes_->recordChoice(s, p_);
+        if (strikes != nullptr) strikes->recordChoice(s, p_);
         s.record.commands().endLabel();
         return {};
     }
 
-    void recordAdmission(const Step& s) override {
+    void recordAdmission(const Step& s, const Strikes* strikes) override {
         const auto& world = s.record.counts();
         s.record.commands().beginLabel("admission");
         const auto orAll = [](uint32_t room) { return room != 0 ? room : NO_INDEX; };
@@ -102,11 +97,11 @@ public:
                    static_cast<float>(s.settings.dt),
                    static_cast<float>(contactMargin(s.settings)),
                    kPause};
-        if (strikes_)
+        if (strikes != nullptr)
             s.record.runGroups("admit_strikes", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
                                 l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,
-                                strikes_->records()});
+                                strikes->records()});
         else
             s.record.runGroups("admit_breaking", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
@@ -330,7 +325,6 @@ private:
     VkDeviceSize fracture_begin_ = 0; // of what fracturing needs, in what is made anew
     std::unique_ptr<DustRing> dust_;
     std::unique_ptr<Debris> debris_;
-    std::unique_ptr<Strikes> strikes_;
 };
 
 } // namespace

@@ -25,22 +25,15 @@ public:
                                                             const WorldSizes& world, uint32_t group_size);
     virtual ~Breaking() = default;
 
-    // Blows by hand: none before a host strikes for the first time. What is recorded from then on has them, so all steps have
-    // to be recorded anew. Errors: Capacity, Device.
-    virtual engine::Result<void> makeStrikes() = 0;
-    virtual bool hasStrikes() const = 0;
-    // To a world of the same bodies that takes the place of this one.
-    virtual std::unique_ptr<Strikes> handOverStrikes() = 0;
-    virtual void takeOverStrikes(std::unique_ptr<Strikes> strikes) = 0;
-    // Blows that wait are forgotten. Errors: Device.
-    virtual engine::Result<void> forgetStrikes() = 0;
-
-    // Of a step in which a host strikes by hand: whom, before it is decided who sleeps. Needs makeStrikes.
-    virtual void recordStrikes(const Step& step, const HandBlows& by_hand) = 0;
-    virtual engine::Result<void> recordBlows(const Step& step) = 0;
+    // Makes what blows by hand need. The world keeps it, also when it makes more room. Errors: Capacity, Device.
+    virtual engine::Result<std::unique_ptr<Strikes>> makeStrikes() const = 0;
+    // Records whom a host strikes in this step, before it is decided who sleeps.
+    virtual void recordStrikes(const Step& step, const Strikes& strikes, const HandBlows& by_hand) const = 0;
+    // `strikes`, here and below: nullptr before a host strikes for the first time.
+    virtual engine::Result<void> recordBlows(const Step& step, const Strikes* strikes) = 0;
     // Who breaks, once nothing can fail any more that the step needs: a step that is not made breaks nothing. Bodies stand as
     // they did when it began.
-    virtual void recordAdmission(const Step& step) = 0;
+    virtual void recordAdmission(const Step& step, const Strikes* strikes) = 0;
     virtual engine::Result<void> recordEvent(const Step& step) = 0;
 
     // Since `heard`, which is brought up to now.

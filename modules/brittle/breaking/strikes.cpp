@@ -40,7 +40,6 @@ Result<void> checkBlow(const HandBlow& blow) {
 Result<std::unique_ptr<Strikes>> Strikes::create(engine::Device& device, uint32_t bodies, uint32_t pieces) {
     std::unique_ptr<Strikes> strikes(new Strikes(device));
     if (auto made = strikes->make(bodies, pieces); !made) return made.error();
-
     return strikes;
 }
 

@@ -15,7 +15,7 @@
 
 namespace brittle {
 
-// Of one step.
+// What a host strikes with in one step.
 struct HandBlows {
     std::vector<HandBlow> blows; // at most MOST_STRIKES
     bool is_first = false;       // of a world: the step begins with clearing what waits
@@ -23,13 +23,13 @@ struct HandBlows {
 
 class Strikes {
 public:
-    // For a world of so many slots of bodies and pieces. The next step that is made has to have blows, and they are its first
+    // `bodies` and `pieces`: slots of the world. The next step that is made has to have blows, and they are its first
     // ones: memory is not cleared before. Errors: Capacity for what the device cannot bind; Device.
     static engine::Result<std::unique_ptr<Strikes>> create(engine::Device& device, uint32_t bodies, uint32_t pieces);
 
     // Once contacts are known, and before it is decided who sleeps.
     void recordJudging(const Step& step, const LastingBuffers& lasting, const HandBlows& by_hand) const;
-    // Of every step: between the contacts' blows being found and being chosen; after they have been chosen.
+    // Both are of every step: one between finding and choosing the contacts' blows, one after they have been chosen.
     void recordRaising(const Step& step, const LastingBuffers& lasting, const PassingBuffers& passing) const;
     void recordChoice(const Step& step, const PassingBuffers& passing) const;
     // No blow waits any more. Errors: Device.

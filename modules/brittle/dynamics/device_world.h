@@ -60,7 +60,7 @@ private:
     engine::Result<void> recordInto(engine::Commands& commands, uint32_t parity, const HandBlows* by_hand = nullptr);
     engine::Result<void> recordStep(Recorder& record, uint32_t parity, const HandBlows* by_hand = nullptr);
     bool bounce() const;
-    // What a blow by hand needs, before the first one.
+    // Makes what blows by hand need, and records the steps again: before the first blow.
     engine::Result<void> prepareStrikes();
     // By its number, counted from 0.
     engine::Result<void> submit(uint64_t step);
@@ -118,6 +118,7 @@ private:
     uint64_t made_ = 0;
     uint64_t ahead_ = 0;                 // steps that were submitted since that was read
     std::unique_ptr<Breaking> breaking_; // where bodies break
+    std::unique_ptr<Strikes> striking_;  // once a host has struck
     RoomToBreak to_break_;
     HeardSoFar heard_;
     uint32_t slots_ = 0; // of bodies, that have ever held one

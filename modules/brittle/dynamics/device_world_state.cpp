@@ -32,8 +32,8 @@ Result<void> DeviceWorld::restore(std::span<const std::byte> state) {
     if (auto done = clearWord(STATUS_FAILED); !done) return done; // of a step that the state knows nothing of
     ahead_ = 0;
     strikes_.clear();
-    if (breaking_)
-        if (auto done = breaking_->forgetStrikes(); !done) return done;
+    if (striking_)
+        if (auto done = striking_->forget(); !done) return done;
     heard_ = head->heard;
     fragments_.forget(); // as many may have broken in another way
     auto words = takeStock();

@@ -14,7 +14,6 @@ using engine::Result;
 Result<void> DeviceWorld::makeBreakable(const RoomToBreak& room) {
     auto breaking = Breaking::create(device_, contents_, room, settings_, b_.sizes, budget_.group_size);
     if (!breaking) return breaking.error();
-    if (breaking_) (*breaking)->takeOverStrikes(breaking_->handOverStrikes());
     breaking_ = std::move(*breaking);
     to_break_ = room;
     return {};
@@ -74,8 +73,10 @@ Result<void> DeviceWorld::strike(const HandBlow& blow) {
 }
 
 Result<void> DeviceWorld::prepareStrikes() {
-    if (breaking_->hasStrikes()) return {};
-    if (auto made = breaking_->makeStrikes(); !made) return made;
+    if (striking_) return {};
+    auto made = breaking_->makeStrikes();
+    if (!made) return made.error();
+    striking_ = std::move(*made);
     strikes_[made_ + ahead_].is_first = true;
     return record();
 }
@@ -101,12 +102,12 @@ Result<void> DeviceWorld::recordStep(Recorder& record, uint32_t parity, const Ha
     record.clear({b_.counts.sub(0, 4 * STATUS_FAILED)});
     recordBoxes(step);
     if (auto recorded = recordContacts(step); !recorded) return recorded;
-    if (by_hand != nullptr) breaking_->recordStrikes(step, *by_hand);
+    if (by_hand != nullptr) breaking_->recordStrikes(step, *striking_, *by_hand);
     recordIslands(step);
     if (breaking_)
-        if (auto recorded = breaking_->recordBlows(step); !recorded) return recorded;
+        if (auto recorded = breaking_->recordBlows(step, striking_.get()); !recorded) return recorded;
     recordColors(step);
-    if (breaking_) breaking_->recordAdmission(step);
+    if (breaking_) breaking_->recordAdmission(step, striking_.get());
     recordSolve(step);
     recordImpacts(step, breaking_ ? std::optional(breaking_->breakable()) : std::nullopt);
     recordEnd(step);

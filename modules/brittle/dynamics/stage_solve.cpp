@@ -106,6 +106,19 @@ void recordAdjacency(const Step& s) {
                   b.contact_slots, b.adjacency});
 }
 
+// `gravity`: w: length of a substep, s.
+void recordPreparation(const Step& s, const gpu::vec4& gravity) {
+    const StepBuffers& b = s.b.step;
+    gpu::PreparePush push{};
+    push.gravity = gravity;
+    push.substeps = s.settings.substeps;
+    push.most_push = static_cast<float>(pushOut(s.settings));
+    push.push_share = static_cast<float>(pushShare(s.settings));
+    s.record.run(
+        "prepare_contacts", kContacts, push,
+        {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
+}
+
 // All substeps of small islands.
 void recordSmallIslands(const Step& s) {
     const StepSettings& set = s.settings;
@@ -115,7 +128,6 @@ void recordSmallIslands(const Step& s) {
     push.gravity = fallingOf(s);
     push.hertz = static_cast<float>(set.contact_hertz > 0 ? set.contact_hertz : kNoLimit);
     push.damping = static_cast<float>(set.contact_damping);
-
     push.least_bounce = static_cast<float>(set.bounce_speed);
     push.substeps = set.substeps;
     push.most_substeps = std::max(set.substeps, set.most_substeps);
@@ -162,22 +174,6 @@ gpu::SolverPush solverPush(const Step& s) {
     return push;
 }
 
-namespace {
-
-void recordPreparation(const Step& s) {
-    const StepBuffers& b = s.b.step;
-    gpu::PreparePush push{};
-    push.gravity = solverPush(s).gravity;
-    push.substeps = s.settings.substeps;
-    push.most_push = static_cast<float>(pushOut(s.settings));
-    push.push_share = static_cast<float>(pushShare(s.settings));
-    s.record.run(
-        "prepare_contacts", kContacts, push,
-        {s.record.counts(), b.contact_pairs, b.contact_slots, s.now.contacts, s.b.bodies, b.solver_bodies, b.solver_contacts});
-}
-
-} // namespace
-
 void recordColors(const Step& s) {
     if (!s.has(Effect::Contacts)) return;
     s.record.commands().beginLabel("colors");
@@ -191,7 +187,7 @@ void recordSolve(const Step& s) {
     const gpu::SolverPush push = solverPush(s);
     s.record.commands().beginLabel("solve");
     const bool contacts = s.has(Effect::Contacts);
-    if (contacts) recordPreparation(s);
+    if (contacts) recordPreparation(s, push.gravity);
     if (contacts) recordSmallIslands(s);
     for (uint32_t k = 0; k < s.settings.substeps; k++)
         recordSubstep(s, push, k);

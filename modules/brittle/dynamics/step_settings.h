@@ -59,10 +59,10 @@ double contactHertz(const StepSettings& settings);
 // gravity in a step goes with the square of the step, and so does the margin.
 double contactMargin(const StepSettings& settings);
 
-// // m/s, the most that overlap is pushed out with: that of the settings, or what gravity gives in about 18 steps, but no less
+// m/s, the most that overlap is pushed out with: that of the settings, or what gravity gives in about 18 steps, but no less
 // than pushShare.
 double pushOut(const StepSettings& settings);
-// Of the shorter arm of a contact, in a step. 0 if the settings have push_out.
+// Overlap may be pushed out by this share of the shorter arm of a contact in a step. 0 if the settings have push_out.
 double pushShare(const StepSettings& settings);
 
 // m3, that a body has at the least.
