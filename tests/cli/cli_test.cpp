@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 
 namespace {
 
@@ -222,6 +223,54 @@ TEST_F(Cli, NamesThatPromiseAnotherFormatAreRefused) {
         EXPECT_NE(run.err.find("let its name end in"), std::string::npos) << run.err;
         EXPECT_FALSE(std::filesystem::exists(names.front()));
     }
+}
+
+// What is printed fills more than a buffer, and less.
+TEST_F(Cli, AFullDiskBehindStandardOutputIsAnError) {
+    for (const std::string& words :
+         {std::string("plan card_house --json"), std::string("scenes --json"), std::string("scenes --keys"),
+          std::string("scenes"), "shatter builtin:cube -o " + path("a.glb"),
+          "simulate stack_10 --seconds 0.1 --json -o " + path("b.glb"), "doctor builtin:cube --repair -o " + path("c.obj")}) {
+        const Outcome run =
+            runProgram("/bin/sh", {"-c", "exec \"$0\" " + words + " > /dev/full", support::programPath("brittle")});
+        EXPECT_EQ(run.exit_code, 2) << words;
+        EXPECT_NE(run.err.find("standard output cannot be written"), std::string::npos) << words << ": " << run.err;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(path("")));
+}
+
+TEST_F(Cli, UnknownWordsAreAnsweredWithTheNearest) {
+    const auto expectSays = [](const std::vector<std::string>& words, const std::string& said) {
+        const Outcome run = runProgram("brittle", words);
+        EXPECT_EQ(run.exit_code, 2);
+        EXPECT_EQ(run.err, "brittle: " + said + "\n");
+    };
+    expectSays({"shater", "builtin:cube"}, "there is no subcommand 'shater', did you mean 'shatter'?");
+    expectSays({"window"}, "there is no subcommand 'window'; brittle --help lists them");
+    expectSays({}, "no subcommand is given; brittle --help lists them");
+    expectSays({"--helpp"}, "brittle has no option '--helpp', did you mean '--help'?");
+    expectSays({"shatter", "builtin:cube", "-o", path("a.glb"), "--sitez=3"},
+               "brittle shatter has no option '--sitez', did you mean '--sites'?");
+    expectSays({"simulate", "stack_10", "--zzz"},
+               "brittle simulate has no option '--zzz'; brittle simulate --help lists its options");
+}
+
+TEST_F(Cli, TellsItsVersion) {
+    const Outcome run = runProgram("brittle", {"--version"});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_TRUE(std::regex_match(run.out, std::regex("brittle [0-9]+\\.[0-9]+\\.[0-9]+\n"))) << run.out;
+}
+
+TEST_F(Cli, ExamplesAreFoundByName) {
+    for (const char* scene : {"window_pane", "crumbling_wall", "window_pane.toml", "dropped_vase"}) {
+        const Outcome run = runProgram("brittle", {"scenes", scene});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.out.find("name = \""), std::string::npos) << run.out;
+    }
+    const Outcome near = runProgram("brittle", {"scenes", "window_pain"});
+    EXPECT_EQ(near.err, "brittle: no scene is named 'window_pain', did you mean 'window_pane'?\n");
+    EXPECT_EQ(runProgram("brittle", {"doctor", "vase.obj"}).exit_code, 0);
+    EXPECT_NE(runProgram("brittle", {"scenes"}).out.find("window_pane"), std::string::npos);
 }
 
 // By whatever name, through whatever link.

@@ -4,9 +4,12 @@
 #include "tests/support/fragment_sets.h"
 #include "tests/support/shapes.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include <cstring>
 #include <filesystem>
@@ -24,7 +27,7 @@ public:
         std::filesystem::create_directories(path_);
     }
     ~Folder() { std::filesystem::remove_all(path_); }
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     size_t fileCount() const {
         return static_cast<size_t>(
             std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
@@ -147,6 +150,43 @@ TEST(OutputFile, IsThereWholeOrNotAtAll) {
         ASSERT_TRUE(file && file->write("abandoned"));
     }
     EXPECT_EQ(contentOf(folder / "a.glb"), "whole"); // what was there before stays
+}
+
+// The number of a process that has ended.
+pid_t endedProcess() {
+    const pid_t process = fork();
+    if (process == 0) _exit(0);
+    waitpid(process, nullptr, 0);
+    return process;
+}
+
+TEST(OutputFile, RemovesWhatAKilledProcessLeft) {
+    const Folder folder;
+    const std::string ended = std::to_string(endedProcess());
+    const auto left = [&](const std::string& name) {
+        std::ofstream(folder / name) << "left";
+        return folder / name;
+    };
+    const auto stale = left("a.glb.part" + ended), of_another = left("b.glb.part" + ended);
+    const auto of_a_running = left("a.glb.part" + std::to_string(getppid())), no_number = left("a.glb.part1x");
+    auto file = OutputFile::create(folder / "a.glb");
+    ASSERT_TRUE(file && file->write("whole") && file->commit());
+    EXPECT_FALSE(std::filesystem::exists(stale));
+    for (const auto& kept : {of_another, of_a_running, no_number})
+        EXPECT_EQ(contentOf(kept), "left") << kept;
+}
+
+TEST(OutputFile, LeavesWhatAnotherMachineIsWriting) {
+    const Folder folder;
+    const auto partial = folder / ("a.glb.part" + std::to_string(endedProcess()));
+    std::ofstream(partial) << "half";
+    const int held = open(partial.c_str(), O_RDWR);
+    ASSERT_EQ(flock(held, LOCK_SH), 0);
+    ASSERT_TRUE(OutputFile::create(folder / "a.glb"));
+    EXPECT_EQ(contentOf(partial), "half");
+    close(held);
+    ASSERT_TRUE(OutputFile::create(folder / "a.glb"));
+    EXPECT_FALSE(std::filesystem::exists(partial));
 }
 
 TEST(OutputFile, ReplacesWhatALinkLeadsTo) {

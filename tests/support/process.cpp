@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <spawn.h>
@@ -22,11 +23,13 @@ std::string fileBytes(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::string programPath(const std::string& program) { return std::filesystem::path(BRITTLE_BINARY_DIR) / program; }
+
 RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
                                const std::vector<std::string>& environment) {
     static std::atomic<int> runs = 0;
     base_ = testing::TempDir() + "brittle_run_" + std::to_string(getpid()) + "_" + std::to_string(runs++);
-    std::vector<std::string> words{std::string(BRITTLE_BINARY_DIR) + "/" + program};
+    std::vector<std::string> words{programPath(program)};
     words.insert(words.end(), arguments.begin(), arguments.end());
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);

@@ -13,7 +13,10 @@ struct Outcome {
     std::string out, err;
 };
 
-// A program at work, for tests that talk with it. It stands in the build's bin folder; `environment` holds NAME=VALUE. Nothing
+// A program of the build's bin folder. An absolute path stays as it is.
+std::string programPath(const std::string& program);
+
+// A program at work, for tests that talk with it. `program`: as for programPath. `environment` holds NAME=VALUE. Nothing
 // on standard input.
 class RunningProgram {
 public:

@@ -61,4 +61,10 @@ int fail(const engine::Error& error) {
     return exitCode(error.code);
 }
 
+// A failed write of more than a buffer leaves nothing for fflush to fail at. The stream remembers it.
+engine::Result<void> checkPrinted() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
+    return engine::Error{engine::ErrorCode::BadInput, "standard output cannot be written; the disk may be full"};
+}
+
 } // namespace cli

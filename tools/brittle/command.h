@@ -38,4 +38,8 @@ void addDeviceOptions(CLI::App& command, std::string& device, uint32_t& group_si
 // Prints "brittle: MESSAGE" as one line on stderr.
 int fail(const engine::Error& error);
 
+// Checks that all that was printed has arrived on standard output. A command that writes files calls it before it commits them,
+// so that a run that fails leaves none. Errors: BadInput, for instance for a full disk.
+engine::Result<void> checkPrinted();
+
 } // namespace cli

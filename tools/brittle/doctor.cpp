@@ -52,6 +52,7 @@ engine::Result<void> write(const DoctorOptions& options, const brittle::Mesh& me
     const auto bytes = brittle::encodeModel(mesh, std::filesystem::path(options.output).extension().string());
     if (!bytes) return bytes.error();
     if (auto written = file.write(*bytes); !written) return written.error();
+    if (auto printed = checkPrinted(); !printed) return printed;
     return file.commit();
 }
 
@@ -93,7 +94,7 @@ int runDoctor(const DoctorOptions& options) {
 void addDoctor(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("doctor", "Say whether a model can be broken, what is wrong where it cannot, and mend it.");
-    command->footer("Examples:\n  brittle doctor teapot.stl\n  brittle doctor scan.ply --repair -o mended.obj");
+    command->footer("Examples:\n  brittle doctor vase.obj\n  brittle doctor scan.ply --repair -o mended.obj");
     auto options = std::make_shared<DoctorOptions>();
     command->add_option("MODEL", options->model, kModelHelp)->required();
     command->add_flag("--repair", options->repair, kRepairHelp);

@@ -1,10 +1,13 @@
 // brittle: shatters models and simulates scenes from the command line. Every subcommand stands in a file of its own; a new one
 // is a row below.
+#include "modules/brittle/register_module.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/driver_threads.h"
 #include "tools/brittle/interrupt.h"
+#include "tools/brittle/unknown_word.h"
 
 #include <cstdio>
+#include <span>
 
 namespace {
 
@@ -14,18 +17,20 @@ constexpr cli::AddCommand kCommands[] = {cli::addShatter,  cli::addDevices, cli:
 
 constexpr const char* kFooter =
     "Examples:\n"
-    "  brittle shatter vase.stl -o pieces.glb\n"
+    "  brittle shatter vase.obj -o pieces.glb\n"
     "  brittle shatter builtin:ring -o ring.glb --sites 40 --picture ring.png --explode 0.3\n"
-    "  brittle doctor vase.stl\n"
+    "  brittle doctor vase.obj\n"
     "  brittle simulate card_house -o house.glb\n"
     "  brittle plan card_house --measure\n"
     "  brittle accuracy --quick -o out/accuracy\n"
     "\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 too large for a pool, 4 no device, 1 a bug of ours.";
 
-// CLI11 explains usage errors over several lines; one is enough.
-int badUsage(const CLI::ParseError& error) {
-    return cli::fail({engine::ErrorCode::BadInput, std::string(error.what()) + "; see brittle --help"});
+// CLI11 explains usage errors over several lines; one is enough. It says the least about words that it does not know.
+int badUsage(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> words) {
+    const std::string unknown = cli::aboutUnknownWord(app, words);
+    const std::string message = unknown.empty() ? std::string(error.what()) + "; see brittle --help" : unknown;
+    return cli::fail({engine::ErrorCode::BadInput, message});
 }
 
 } // namespace
@@ -35,6 +40,7 @@ int main(int argc, char** argv) {
     cli::cleanUpWhenInterrupted();
     CLI::App app{"Shatters closed meshes into closed fragments, on the GPU.", "brittle"};
     app.require_subcommand(1);
+    app.set_version_flag("--version", "brittle " + brittle::makeBrittleModule()->info().version);
     app.footer(kFooter);
     int exit_code = cli::kOk;
     for (const cli::AddCommand add : kCommands)
@@ -42,11 +48,10 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return error.get_exit_code() == 0 ? app.exit(error) : badUsage(error);
+        return error.get_exit_code() == 0 ? app.exit(error) : badUsage(app, error, {argv + 1, argv + argc});
     } catch (const std::exception& error) {
         return cli::fail({engine::ErrorCode::Internal, error.what()});
     }
-    // What was promised on stdout has to have arrived there: a full disk must not look like success.
-    if (std::fflush(stdout) != 0) return cli::fail({engine::ErrorCode::BadInput, "the output cannot be written"});
-    return exit_code;
+    const auto printed = cli::checkPrinted();
+    return printed || exit_code != cli::kOk ? exit_code : cli::fail(printed.error());
 }

@@ -2,6 +2,7 @@
 
 #include "modules/brittle/mesh/import.h"
 #include "modules/brittle/mesh/primitives.h"
+#include "tools/brittle/example_files.h"
 #include "tools/brittle/progress.h"
 
 #include <cstdio>
@@ -10,7 +11,11 @@ namespace cli {
 
 engine::Result<brittle::ImportedMesh> importModel(const std::string& name) {
     constexpr std::string_view kBuiltin = "builtin:";
-    return name.starts_with(kBuiltin) ? brittle::makeBuiltin(name.substr(kBuiltin.size())) : brittle::importMesh(name);
+    if (name.starts_with(kBuiltin)) return brittle::makeBuiltin(name.substr(kBuiltin.size()));
+    std::error_code unreadable;
+    const std::filesystem::path example =
+        std::filesystem::exists(name, unreadable) ? std::filesystem::path() : exampleFile(name);
+    return brittle::importMesh(example.empty() ? std::filesystem::path(name) : example);
 }
 
 engine::Result<brittle::RepairedMesh> loadModel(const std::string& name, bool repair) {

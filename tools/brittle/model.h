@@ -10,11 +10,12 @@
 
 namespace cli {
 
-constexpr const char* kModelHelp = "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, or builtin:NAME";
+constexpr const char* kModelHelp = "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE file, the example vase.obj, or builtin:NAME";
 constexpr const char* kRepairHelp =
     "mend what is well defined (seams, doubled triangles, orientation, small holes); refuse the rest";
 
-// From a file, or by name after "builtin:". Errors of all of these begin with the name given.
+// Reads a file or, if there is none of that name, an example. Makes a built-in model of the name after "builtin:". Errors of
+// all of these begin with the name given.
 engine::Result<brittle::ImportedMesh> importModel(const std::string& name);
 
 // Prepared, not yet checked. With `repair` mended as well, if it needs to be, and then sound for sure.

@@ -9,9 +9,9 @@
 
 namespace cli {
 
-constexpr const char* kSceneHelp = "a built-in scene, or a .toml file";
+constexpr const char* kSceneHelp = "a built-in scene, an example, or a .toml file";
 
-// From a file, if its name ends in .toml, else a built-in one. Errors: BadInput.
+// Reads the file if the name ends in .toml, else the example or the built-in scene of that name. Errors: BadInput.
 engine::Result<brittle::SceneDescription> readSceneOrBuiltin(const std::string& name);
 
 // From where the names of the scene's models count.

@@ -4,6 +4,7 @@
 #include "modules/brittle/scene/scene_file.h"
 #include "modules/brittle/scene/scene_keys.h"
 #include "tools/brittle/command.h"
+#include "tools/brittle/example_files.h"
 #include "tools/brittle/interrupt.h"
 #include "tools/brittle/scene_files.h"
 #include "tools/brittle/scene_source.h"
@@ -35,16 +36,24 @@ void printRow(const brittle::SceneDescription& scene) {
                 static_cast<unsigned long long>(counts.colliders), scene.step.steps, summaryOf(scene).c_str());
 }
 
+// Examples first: their names are what people look for.
+std::vector<brittle::SceneDescription> allScenes() {
+    std::vector<brittle::SceneDescription> scenes;
+    for (const std::filesystem::path& file : exampleFiles(".toml"))
+        if (auto scene = brittle::readScene(file)) scenes.push_back(std::move(*scene));
+    for (const brittle::SceneEntry& entry : brittle::builtinScenes())
+        if (auto scene = brittle::makeBuiltinScene(entry.name)) scenes.push_back(std::move(*scene));
+    return scenes;
+}
+
 void printList(bool as_json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     if (!as_json) std::printf("%-28s %6s %9s %6s\n", "name", "bodies", "colliders", "steps");
-    for (const brittle::SceneEntry& entry : brittle::builtinScenes()) {
-        const auto scene = brittle::makeBuiltinScene(entry.name);
+    for (const brittle::SceneDescription& scene : allScenes())
         if (as_json)
-            list.push_back(jsonOf(*scene));
+            list.push_back(jsonOf(scene));
         else
-            printRow(*scene);
-    }
+            printRow(scene);
     if (as_json)
         std::printf("%s\n", list.dump(2).c_str());
     else
@@ -103,11 +112,12 @@ int runScenes(const ScenesOptions& options) {
 } // namespace
 
 void addScenes(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, check a scene file, explain its keys.");
+    CLI::App* command =
+        app.add_subcommand("scenes", "List the scenes that come with the program, check a scene file, explain its keys.");
     command->footer("Examples:\n  brittle scenes\n  brittle scenes card_house -o house.toml\n  brittle scenes house.toml\n"
                     "  brittle scenes --keys");
     auto options = std::make_shared<ScenesOptions>();
-    command->add_option("SCENE", options->scene, "a built-in scene, or a .toml file to check; printed as TOML");
+    command->add_option("SCENE", options->scene, "a built-in scene, an example, or a .toml file to check; printed as TOML");
     command->add_option("-o,--output", options->output, "write it to this file instead");
     command->add_flag("--keys", options->keys, "explain every key of scene files");
     command->add_flag("--json", options->as_json, "print JSON: names, comments and counts");

@@ -30,7 +30,7 @@ double millisecondsSince(Clock::time_point start) {
 class Run {
 public:
     explicit Run(const ShatterOptions& options) : options_(options) {}
-    engine::Result<ShatterOutcome> all();
+    engine::Result<void> all(const TellOutcome& tell);
 
 private:
     engine::Result<void> checkPathsApart() const;
@@ -60,7 +60,7 @@ private:
     std::vector<brittle::Double3> given_sites_;
 };
 
-engine::Result<ShatterOutcome> Run::all() {
+engine::Result<void> Run::all(const TellOutcome& tell) {
     struct Step {
         const char* name;     // in the list of times
         const char* progress; // nullptr for what takes no time
@@ -76,7 +76,6 @@ engine::Result<ShatterOutcome> Run::all() {
         {"verify", "verifying", &Run::verify},
         {"export", "writing", &Run::writeFragments},
         {"picture", "drawing", &Run::writePicture},
-        {"commit", nullptr, &Run::commitOutputs},
     };
     const Clock::time_point start = Clock::now();
     for (const Step& step : kSteps) {
@@ -87,7 +86,8 @@ engine::Result<ShatterOutcome> Run::all() {
     }
     clearProgress();
     outcome_.total_ms = millisecondsSince(start);
-    return std::move(outcome_);
+    if (auto told = tell(outcome_); !told) return told;
+    return commitOutputs();
 }
 
 // A name without any ending is whatever is written to it.
@@ -289,6 +289,6 @@ engine::Result<void> Run::commitOutputs() {
 
 } // namespace
 
-engine::Result<ShatterOutcome> shatter(const ShatterOptions& options) { return Run(options).all(); }
+engine::Result<void> shatter(const ShatterOptions& options, const TellOutcome& tell) { return Run(options).all(tell); }
 
 } // namespace cli

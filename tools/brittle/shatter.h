@@ -8,6 +8,7 @@
 #include "tools/brittle/auto_setting.h"
 #include "tools/brittle/simulation.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,7 +61,10 @@ struct ShatterOutcome {
     std::optional<SimulationReport> motion; // where they were dropped
 };
 
-// Writes the output and, if asked, the picture: both or none.
-engine::Result<ShatterOutcome> shatter(const ShatterOptions& options);
+using TellOutcome = std::function<engine::Result<void>(const ShatterOutcome&)>;
+
+// Writes the output and the pictures that were asked for: all or none. They come to their places after `tell` has told the
+// outcome, and only if it could.
+engine::Result<void> shatter(const ShatterOptions& options, const TellOutcome& tell);
 
 } // namespace cli

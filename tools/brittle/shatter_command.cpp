@@ -78,15 +78,18 @@ void printText(const ShatterOptions& options, const ShatterOutcome& outcome) {
     if (outcome.motion) printSimulation(*outcome.motion, options.output);
 }
 
-int runShatter(const ShatterOptions& options) {
-    const auto outcome = shatter(options);
-    if (!outcome) return fail(outcome.error());
-    reportMended(options.model, outcome->mended);
+engine::Result<void> print(const ShatterOptions& options, const ShatterOutcome& outcome) {
+    reportMended(options.model, outcome.mended);
     if (options.as_json)
-        std::printf("%s\n", toJson(*outcome).dump(2).c_str());
+        std::printf("%s\n", toJson(outcome).dump(2).c_str());
     else
-        printText(options, *outcome);
-    return kOk;
+        printText(options, outcome);
+    return checkPrinted();
+}
+
+int runShatter(const ShatterOptions& options) {
+    const auto done = shatter(options, [&](const ShatterOutcome& outcome) { return print(options, outcome); });
+    return done ? kOk : fail(done.error());
 }
 
 constexpr const char* kHalfOfModel = "half";
@@ -95,12 +98,12 @@ const std::map<std::string, uint32_t> kColliders = {{"none", 0}, {"6", 6}, {"14"
 
 constexpr const char* kFooter =
     "Examples:\n"
-    "  brittle shatter vase.stl -o pieces.glb --sites 200 --seed 7 --verify\n"
+    "  brittle shatter vase.obj -o pieces.glb --sites 200 --seed 7 --verify\n"
     "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
     "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
-    "  brittle shatter vase.stl -o pieces.glb --sites 80 --at 0,0.1,0.3 --strength 5\n"
-    "  brittle shatter vase.stl -o pieces.glb --collider 26 --collider-picture hulls.png --explode 0.3\n"
-    "  brittle shatter vase.stl -o fall.glb --sites 60 --drop 0.5\n"
+    "  brittle shatter vase.obj -o pieces.glb --sites 80 --at 0,0.1,0.3 --strength 5\n"
+    "  brittle shatter vase.obj -o pieces.glb --collider 26 --collider-picture hulls.png --explode 0.3\n"
+    "  brittle shatter vase.obj -o fall.glb --sites 60 --drop 0.5\n"
     "\n"
     "A sites file is text with one site a line, x y z in the model's coordinates; # begins a comment.\n"
     "Built-in models: builtin:ring, builtin:cube, builtin:icosphere:LEVEL, builtin:bumpy:LEVEL.";

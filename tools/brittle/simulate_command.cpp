@@ -72,7 +72,22 @@ Result<AutoReport> pickFor(engine::Device& device, StagedScene& staged, const Si
     return picked;
 }
 
-Result<SimulateOutcome> run(const SimulateOptions& options) {
+void print(const SimulateOptions& options, const SimulateOutcome& outcome) {
+    if (options.as_json) {
+        nlohmann::ordered_json json = {{"device", outcome.device}};
+        if (outcome.picked) json["picked"] = autoJson(*outcome.picked);
+        json.update(simulationJson(outcome.report));
+        std::printf("%s\n", json.dump(2).c_str());
+    } else if (options.state_hash) {
+        std::printf("%s\n", hexOf(outcome.report.state_hash).c_str());
+    } else {
+        std::printf("device     %s\n", outcome.device.c_str());
+        if (outcome.picked) printAuto(*outcome.picked);
+        printSimulation(outcome.report, options.output);
+    }
+}
+
+Result<void> run(const SimulateOptions& options) {
     auto scene = readSceneOrBuiltin(options.scene);
     if (!scene) return scene.error();
     std::unique_ptr<engine::Device> device; // outlives the output, which may draw with it
@@ -92,35 +107,18 @@ Result<SimulateOutcome> run(const SimulateOptions& options) {
     }
     auto report = simulate(*device, *staged, options.seconds, options.group_size, output->get());
     if (!report) return report.error();
-    if (*output)
-        if (auto committed = (*output)->commit(); !committed) return committed.error();
     clearProgress();
     if (picked) picked->taken_ms = msOfFrame(*report, staged->scene.step.dt);
-    return SimulateOutcome{device->name(), std::move(*report), std::move(picked)};
-}
-
-void print(const SimulateOptions& options, const SimulateOutcome& outcome) {
-    if (options.as_json) {
-        nlohmann::ordered_json json = {{"device", outcome.device}};
-        if (outcome.picked) json["picked"] = autoJson(*outcome.picked);
-        json.update(simulationJson(outcome.report));
-        std::printf("%s\n", json.dump(2).c_str());
-    } else if (options.state_hash) {
-        std::printf("%s\n", hexOf(outcome.report.state_hash).c_str());
-    } else {
-        std::printf("device     %s\n", outcome.device.c_str());
-        if (outcome.picked) printAuto(*outcome.picked);
-        printSimulation(outcome.report, options.output);
-    }
+    print(options, {device->name(), std::move(*report), std::move(picked)});
+    if (auto printed = checkPrinted(); !printed) return printed;
+    return *output ? (*output)->commit() : Result<void>();
 }
 
 int runSimulate(const SimulateOptions& options) {
     if (options.output.empty() && !options.as_json && !options.state_hash)
         return fail({ErrorCode::BadInput, "nothing is asked for; give -o, --json or --state-hash"});
-    const auto outcome = run(options);
-    if (!outcome) return fail(outcome.error());
-    print(options, *outcome);
-    return kOk;
+    const auto done = run(options);
+    return done ? kOk : fail(done.error());
 }
 
 constexpr const char* kFooter =

@@ -1,6 +1,11 @@
 #include "modules/brittle/export/output_file.h"
 
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <fcntl.h>
 #include <fstream>
+#include <sys/file.h>
 #include <unistd.h>
 #include <utility>
 
@@ -11,23 +16,60 @@ engine::Error cannotWrite(const std::filesystem::path& path, const std::string& 
     return {engine::ErrorCode::BadInput, path.string() + ": cannot be written (" + why + "); choose another place"};
 }
 
+constexpr std::string_view kPartial = ".part"; // and the number of the process
+
+// The process that writes a partial file of this name, "NAME.part123". 0 if it is no such name.
+pid_t writerOf(std::string_view file, std::string_view name) {
+    if (!file.starts_with(name) || !file.substr(name.size()).starts_with(kPartial)) return 0;
+    const std::string_view number = file.substr(name.size() + kPartial.size());
+    pid_t writer = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), writer);
+    return error == std::errc() && end == number.data() + number.size() && writer > 0 ? writer : 0;
+}
+
+bool isLocked(const std::filesystem::path& file) {
+    const int opened = open(file.c_str(), O_RDWR | O_CLOEXEC);
+    if (opened < 0) return true; // not ours to remove
+    const bool locked = flock(opened, LOCK_EX | LOCK_NB) != 0;
+    close(opened);
+    return locked;
+}
+
+// Removes what killed processes left beside `place`.
+void removeStale(const std::filesystem::path& place) {
+    std::error_code ignored;
+    const std::filesystem::path folder = place.has_parent_path() ? place.parent_path() : ".";
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const pid_t writer = writerOf(entry.path().filename().native(), place.filename().native());
+        if (writer == 0 || kill(writer, 0) == 0 || errno != ESRCH || isLocked(entry.path())) continue;
+        std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
 } // namespace
 
-OutputFile::OutputFile(std::filesystem::path path, std::filesystem::path temporary)
-    : path_(std::move(path)), temporary_(std::move(temporary)) {}
+OutputFile::OutputFile(std::filesystem::path path, std::filesystem::path temporary, int lock)
+    : path_(std::move(path)), temporary_(std::move(temporary)), lock_(lock) {}
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
-    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})) {}
+    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})), lock_(std::exchange(other.lock_, -1)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(temporary_, other.temporary_);
+    std::swap(lock_, other.lock_);
     return *this;
 }
 
 OutputFile::~OutputFile() {
     std::error_code ignored;
     if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+    release();
+}
+
+void OutputFile::release() {
+    if (lock_ >= 0) close(lock_);
+    lock_ = -1;
 }
 
 engine::Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
@@ -40,9 +82,12 @@ engine::Result<OutputFile> OutputFile::create(const std::filesystem::path& path)
     // The file that a link leads to is replaced, not the link.
     const std::filesystem::path place = std::filesystem::exists(status) ? std::filesystem::canonical(path, error) : path;
     std::filesystem::path temporary = place;
-    temporary += ".part" + std::to_string(getpid());
-    if (!std::ofstream(temporary, std::ios::binary)) return cannotWrite(path, "no such folder, or no permission");
-    return OutputFile(place, temporary);
+    temporary += std::string(kPartial) + std::to_string(getpid());
+    removeStale(place);
+    const int lock = open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (lock < 0) return cannotWrite(path, "no such folder, or no permission");
+    (void)flock(lock, LOCK_SH | LOCK_NB); // some file systems have no locks; then the number of the process decides
+    return OutputFile(place, temporary, lock);
 }
 
 engine::Result<void> OutputFile::write(std::string_view bytes) {
@@ -58,6 +103,7 @@ engine::Result<void> OutputFile::commit() {
     std::filesystem::rename(temporary_, path_, error);
     if (error) return cannotWrite(path_, error.message());
     temporary_.clear();
+    release();
     return {};
 }
 

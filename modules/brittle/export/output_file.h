@@ -1,4 +1,7 @@
 // A file that is there whole or not at all: written beside its place under another name and moved there at the end.
+//
+// The other name is NAME.part and the number of the process. A process that is killed leaves it. The next one that writes NAME
+// removes it, unless a process of that number runs, or one of another machine or container holds the file's lock.
 #pragma once
 
 #include "engine/result.h"
@@ -21,9 +24,11 @@ public:
     engine::Result<void> commit();
 
 private:
-    OutputFile(std::filesystem::path path, std::filesystem::path temporary);
+    OutputFile(std::filesystem::path path, std::filesystem::path temporary, int lock);
+    void release(); // the lock
 
     std::filesystem::path path_, temporary_; // the latter empty once committed
+    int lock_ = -1;                          // a file descriptor
 };
 
 } // namespace brittle
