@@ -158,8 +158,8 @@ constexpr const char* kFooter =
     "known to be out of reach. With -o the matrix goes into results.json and onto the page of that folder, next to what\n"
     "`brittle accuracy` has measured there. With --bullet a case of motion has a second row: Bullet moves the\n"
     "same scene and is judged by the same checks. It says which cases are left out since their checks ask for\n"
-    "more. With --scale a case of motion is moved at so many times its size, under the same gravity, in steps that are\n"
-    "longer by the root of that. Checks read the motion scaled back. Other cases are left out, and the command says why.\n"
+    "more. With --scale a case of motion is moved at S times its size, under the same gravity, in steps that are\n"
+    "longer by the root of S. Checks read the motion scaled back. Other cases are left out, and the command says why.\n"
     "The exit code is 0 where all that is promised holds; Bullet's rows promise nothing.";
 
 // An error's text, or nothing if the text is a scale.
@@ -183,7 +183,7 @@ void addHard(CLI::App& app, int& exit_code) {
         ->check(someText);
     command->add_flag("--long", options->run.is_long, "also those that take minutes each");
     command->add_flag("--bullet", options->run.with_bullet, "also Bullet, by the same checks; where the build has it");
-    command->add_option("--scale", options->run.scale, "only cases of motion, at so many times their size: 0.001 to 1000")
+    command->add_option("--scale", options->run.scale, "only cases of motion, at S times their size; S: 0.001 to 1000")
         ->option_text("S")
         ->check(scaleText);
     command->add_flag("--list", options->list, "run nothing: the names of all cases");

@@ -104,7 +104,7 @@ void addOthers(std::vector<Job>& jobs, const RunOptions& options) {
         if (options.is_long || !one.is_long) addScene(jobs, one, options.with_bullet);
 }
 
-// Such as "x0.01".
+// Returns for example "x0.01".
 std::string settingOf(double scale) {
     std::string text(32, '\0');
     text.resize(static_cast<size_t>(std::snprintf(text.data(), text.size(), "x%g", scale)));

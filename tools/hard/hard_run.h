@@ -15,7 +15,7 @@ struct RunOptions {
     std::string only; // cases whose name has this in it; empty: all
     bool is_long = false;
     bool with_bullet = false;
-    std::optional<double> scale; // runs cases of motion alone, at so many times their size
+    std::optional<double> scale; // runs only cases of motion, at this multiple of their size
 };
 constexpr double kSmallestScale = 1e-3, kLargestScale = 1e3;
 
