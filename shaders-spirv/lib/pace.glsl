@@ -95,14 +95,37 @@ float ratioOf(uvec2 ids) {
 // In the soft solver a cube twice as wide counts, and less does not: stones of one heap are left alone.
 float muchHeavier() { return push_.heaps_too != 0u ? 4.0 : 7.5; }
 
+const float kPinnedRatio = 1.5;
+
+// Whether one body of a contact is so much heavier that the other one is driven away: much heavier, or heavier than one that lies on what
+// does not move. Wants the heights of this step.
+bool isUneven(uvec2 ids) {
+    float a = inverseMassOf(ids.x), b = inverseMassOf(ids.y), ratio = ratioOf(ids);
+    return ratio > muchHeavier() || (ratio > kPinnedRatio && heights[a > b ? ids.x : ids.y] == 1u);
+}
+
 bool may_hurry; // false for a heap
-bool comesHeavy(uint c, float ratio) { return may_hurry && most_load != 0u && ratio > muchHeavier() && loadOf(c) == 0.0; }
+const float kComesFast = 0.05; // edges in a step
+
+bool comesFast(uint c) {
+    uvec4 ids = solver_contacts[c].ids;
+    float slowest = kComesFast * min(edgeOf(ids.x), edgeOf(ids.y)) / push_.gravity.w;
+    bool comes = false;
+    for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) comes = comes || solver_contacts[c].points[k].pulse.z < -slowest;
+    return comes;
+}
+
+bool comesHeavy(uint c) {
+    if (!may_hurry || most_load == 0u || loadOf(c) != 0.0) return false;
+    uvec2 ids = solver_contacts[c].ids.xy;
+    return ratioOf(ids) > muchHeavier() || (isUneven(ids) && comesFast(c));
+}
 
 // In weights of the lighter body.
 float weightsOn(uint c, float g, float height) {
     uvec4 ids = solver_contacts[c].ids;
     float ratio = ratioOf(ids.xy);
-    if (most_load == 0u || comesHeavy(c, ratio)) return max(height, ratio);
+    if (most_load == 0u || comesHeavy(c)) return max(height, ratio);
     return max(loadOf(c) * max(inverseMassOf(ids.x), inverseMassOf(ids.y)) / g, 1.0);
 }
 
@@ -145,7 +168,7 @@ void gatherPaces(uint lane, uvec2 range, float g, float height) {
         uint share = most > 0.0 ? uint(kHeaviest * (loadOf(c) / most) + 0.5) : 1u;
         float pace = min(paceOfContact(c, g, height), float(push_.most_substeps));
         float sinking = min(paceAgainstSinking(c, g), float(push_.most_substeps));
-        if (comesHeavy(c, ratioOf(solver_contacts[c].ids.xy))) atomicMax(coming_pace, uint(ceil(pace)));
+        if (comesHeavy(c)) atomicMax(coming_pace, uint(ceil(pace)));
         atomicAdd(shares, share);
         atomicAdd(shared_paces, share * uint(ceil(pace)));
         atomicAdd(shared_sinking, share * uint(ceil(sinking)));

@@ -26,7 +26,7 @@ bool needsSweeps(uint lane, uvec2 range) {
     if (lane == 0u) is_uneven = push_.heaps_too;
     barrier();
     for (uint c = range.x + lane; c < range.y; c += LANES)
-        if (ratioOf(solver_contacts[c].ids.xy) > muchHeavier()) is_uneven = 1u;
+        if (solver_contacts[c].pace.w != 0u) is_uneven = 1u;
     barrier();
     return is_uneven != 0u && !rubs_in_push && range.y - range.x > 1u;
 }
@@ -66,11 +66,11 @@ bool comesInStill(uint c, uint points) {
 }
 
 // `stamp`: of this sweep.
-void noteStrike(uint body, uint other, bool is_blow, uint stamp) {
+void noteStrike(uint body, uint other, bool is_uneven_, bool is_blow, uint stamp) {
     float inverse = solver_bodies[body].velocity.w;
     if (inverse == 0.0) return;
     float others = solver_bodies[other].velocity.w;
-    if (sweeps_on && others > 0.0 && inverse > muchHeavier() * others) struck = 1u;
+    if (sweeps_on && others > 0.0 && is_uneven_ && inverse > others) struck = 1u;
     if (is_blow && atomicExchange(heights[body], stamp) == stamp) struck = 1u;
 }
 
@@ -78,8 +78,8 @@ void noteStrikes(uint c, uint stamp) {
     uvec4 ids = solver_contacts[c].ids;
     float fastest = haste(c, ids.z);
     if (fastest < POINT_MET || greatestOf(impulsesOf(c, ids.z)) == 0.0) return;
-    noteStrike(ids.x, ids.y, fastest >= POINT_HIT, stamp);
-    noteStrike(ids.y, ids.x, fastest >= POINT_HIT, stamp);
+    noteStrike(ids.x, ids.y, solver_contacts[c].pace.w != 0u, fastest >= POINT_HIT, stamp);
+    noteStrike(ids.y, ids.x, solver_contacts[c].pace.w != 0u, fastest >= POINT_HIT, stamp);
 }
 
 bool anyStruck(uint lane, uvec2 range, bool wanted, uint stamp) {

@@ -131,7 +131,7 @@ struct SolverContact {
     vec4 rub;      // impulses along the tangent, across it, of twisting; w: the most that overlap is pushed out with, m/s
     vec4 rub_mass; // effective mass in the tangent plane: 11, 12, 22; w: ARMS_*
     vec4 loads;    // of the points: what of their impulse does not make them give way
-    uvec4 pace;    // substeps of its last step, 0 if it is new; of this one; 1: carries loads; 1: may lean (lib/pace.glsl)
+    uvec4 pace;    // substeps of its last step, 0 if it is new; of this one; 1: carries loads; 1: is uneven (lib/pace.glsl)
     vec4 first;    // impulses of the points when the substep began
     // Of sweeps that go on until bodies part (solve_islands): of the points before the last one,
     vec4 before;                 // impulses

@@ -89,7 +89,7 @@ void listMembers(uint lane, uvec2 range, uint first) {
 void takePace(uint lane, uvec2 range, uint pace, bool carries) {
     float share = float(push_.substeps) / float(pace);
     for (uint c = range.x + lane; c < range.y; c += LANES) {
-        solver_contacts[c].pace = uvec4(solver_contacts[c].pace.x, pace, carries ? 1u : 0u, 0u);
+        solver_contacts[c].pace = uvec4(solver_contacts[c].pace.x, pace, carries ? 1u : 0u, isUneven(solver_contacts[c].ids.xy) ? 1u : 0u);
         solver_contacts[c].loads *= carries ? share : 0.0;
         if (kFriction != 0u) solver_contacts[c].rub.xyz *= share;
         for (uint k = 0u; k < MANIFOLD_POINTS && k < solver_contacts[c].ids.z; k++) solver_contacts[c].points[k].pulse.x *= share;

@@ -90,8 +90,35 @@ TEST_F(HardCli, BulletNeitherFailsTheCommandNorPassesWhatItCannotBeJudgedBy) {
     EXPECT_NE(failing.out.find("Bullet: 1 cases by the same checks: 0 pass"), std::string::npos) << failing.out;
     const Outcome left_out = hard({"--only", "hard_22_far_body", "--bullet"});
     EXPECT_EQ(left_out.exit_code, 0) << left_out.err;
-    EXPECT_NE(left_out.out.find("Bullet   left out: "), std::string::npos) << left_out.out;
+    EXPECT_NE(left_out.out.find("Bullet        left out: "), std::string::npos) << left_out.out;
     EXPECT_EQ(left_out.out.find("Bullet: "), std::string::npos) << left_out.out;
+}
+
+TEST_F(HardCli, MovesCasesOfMotionAtAnotherSizeAndLeavesOutTheOthers) {
+    const Outcome run = hard({"--scale", "0.01", "--only", "hard_38_cradle_10mm", "-o", path("page")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("1 cases: 1 pass"), std::string::npos) << run.out;
+    EXPECT_EQ(results()["hard"][0]["setting"], "x0.01");
+    const Outcome scene = hard({"--scale", "100", "--only", "hard_22_far_body"});
+    EXPECT_NE(scene.out.find("x100          left out: its checks ask for more"), std::string::npos) << scene.out;
+    const Outcome mesh = hard({"--scale", "100", "--only", "mesh with a fin"});
+    EXPECT_NE(mesh.out.find("left out: it moves no scene"), std::string::npos) << mesh.out;
+}
+
+TEST_F(HardCli, JudgesBulletAtAnotherSizeToo) {
+    const Outcome run = hard({"--scale", "100", "--only", "hard_38_cradle_10mm", "--bullet", "-o", path("page")});
+    if (run.exit_code == 4) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("\n1 cases: 1 pass"), std::string::npos) << run.out;
+    EXPECT_EQ(results()["hard"][1]["setting"], "Bullet x100");
+}
+
+TEST_F(HardCli, RefusesWhatIsNoScale) {
+    for (const char* bad : {"", "abc", "nan", "inf", "0", "-1", "0.0009", "1001", "0.01x"}) {
+        const Outcome run = hard({std::string("--scale=") + bad});
+        EXPECT_EQ(run.exit_code, 2) << bad << ": " << run.err;
+        EXPECT_NE(run.err.find("scale"), std::string::npos) << bad << ": " << run.err;
+    }
 }
 
 TEST_F(HardCli, RefusesWhatThereIsNot) {

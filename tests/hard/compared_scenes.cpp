@@ -3,6 +3,7 @@
 #include "modules/brittle/mesh/vector_math.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "tests/hard/moving_scenes.h"
+#include "tests/support/scaled_scene.h"
 #include "tests/support/stacked_boxes.h"
 
 #include <algorithm>
@@ -60,39 +61,12 @@ void checkAlike(Trial& trial, const std::string& name, double edge, const std::v
     trial.check(name + ": places, off by a share of their height", most, 0.05);
 }
 
-void scale(brittle::ShapeDescription& shape, double times) {
-    shape.size = times * shape.size;
-    shape.radius *= times;
-    shape.scale = times * shape.scale;
-    for (Double3& point : shape.points)
-        point = times * point;
-}
-
-// The same under the same gravity, `times` as large: times go with the root of lengths.
-brittle::SceneDescription scaled(brittle::SceneDescription scene, double times) {
-    const double slower = std::sqrt(times);
-    scene.step.dt *= slower;
-    scene.step.bounce_speed *= slower;
-    for (brittle::ColliderDescription& collider : scene.colliders) {
-        scale(collider.shape, times);
-        collider.place = times * collider.place;
-    }
-    for (brittle::BodyDescription& body : scene.bodies) {
-        scale(body.shape, times);
-        body.place = times * body.place;
-        body.velocity = slower * body.velocity;
-        body.spin = (1 / slower) * body.spin;
-        if (body.mass) *body.mass *= times * times * times;
-    }
-    return scene;
-}
-
 // Places in the end differ by at most `allowed` lengths of the scene as it is.
 void checkScaled(Trial& trial, const brittle::SceneDescription& scene, const std::string& name,
                  std::initializer_list<double> scales, double allowed) {
     const std::vector<Double3> expected = placesInEdges(trial, trial.scene(scene), 1);
     for (const double times : scales) {
-        const std::vector<Double3> places = placesInEdges(trial, trial.scene(scaled(scene, times)), times);
+        const std::vector<Double3> places = placesInEdges(trial, trial.scene(support::scaled(scene, times)), times);
         double most = 0;
         for (size_t b = 0; b < std::min(places.size(), expected.size()); ++b)
             most = std::max(most, brittle::length(places[b] - expected[b]));

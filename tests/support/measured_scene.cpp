@@ -1,8 +1,8 @@
 #include "tests/support/measured_scene.h"
 
 #include "modules/brittle/dynamics/pose.h"
-#include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "tests/support/world_mover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +37,6 @@ double bulgeOf(const gpu::HullRecord& hull, double angle) {
     return (sizeOf(xyz(hull.center)) + hull.center.w) * (1 - std::cos(std::min(angle, 2 * std::numbers::pi) / 2));
 }
 
-class WorldMover : public Mover {
-public:
-    WorldMover(brittle::World& world, double substep) : world_(world), substep_(substep) {}
-    engine::Result<void> step(uint32_t steps) override { return world_.step(steps); }
-    engine::Result<std::vector<gpu::BodyState>> bodies() override { return world_.bodies(); }
-    double substep() const override { return substep_; }
-
-private:
-    brittle::World& world_;
-    double substep_;
-};
-
 } // namespace
 
 double marginOf(const brittle::StepDescription& step) {
@@ -75,12 +63,10 @@ engine::Result<void> MeasuredScene::make(engine::Device& device, const MakeMover
 }
 
 engine::Result<void> MeasuredScene::makeWorld(engine::Device& device) {
-    const auto settings = brittle::settingsOf(scene_);
-    if (!settings) return settings.error();
-    auto world = brittle::World::create(device, contents_, *settings, brittle::budgetOf(scene_));
-    if (!world) return world.error();
-    world_ = std::move(*world);
-    mover_ = std::make_unique<WorldMover>(*world_, scene_.step.dt / scene_.step.substeps);
+    auto mover = WorldMover::make(device, scene_, contents_);
+    if (!mover) return mover.error();
+    world_ = &(*mover)->world();
+    mover_ = std::move(*mover);
     return {};
 }
 

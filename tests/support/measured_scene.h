@@ -57,7 +57,7 @@ private:
 
     brittle::SceneDescription scene_;
     brittle::WorldContents contents_;
-    std::unique_ptr<brittle::World> world_; // none where another engine moves the scene
+    brittle::World* world_ = nullptr; // the mover's; none where another engine moves the scene
     std::unique_ptr<Mover> mover_;
     std::vector<gpu::BodyState> first_, last_, now_;
     uint32_t made_ = 0;

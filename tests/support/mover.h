@@ -24,4 +24,7 @@ public:
 using MakeMover = std::function<engine::Result<std::unique_ptr<Mover>>(const brittle::SceneDescription& scene,
                                                                        const brittle::WorldContents& contents)>;
 
+// A place that no world can hold, beyond 1e6 m, becomes NaN; checks call such a body lost.
+void moveTo(gpu::BodyState& state, const brittle::Double3& place);
+
 } // namespace support

@@ -4,12 +4,9 @@
 
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/scene_settings.h"
-#include "modules/brittle/dynamics/sector_place.h"
 #include "tools/bench/bullet_shapes.h"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-
-#include <limits>
 
 namespace bench {
 namespace {
@@ -98,7 +95,7 @@ private:
         state.velocity = packed(pointOf(body.getLinearVelocity()), 0);
         state.spin = packed(spin, 0);
         state.momentum = packed(angularMomentumOf(b, spin, {turn.x(), turn.y(), turn.z(), turn.w()}), 0);
-        moveTo(state, place);
+        support::moveTo(state, place);
     }
 
     Point angularMomentumOf(size_t b, const Point& spin, const brittle::Turn& turn) const {
@@ -107,18 +104,6 @@ private:
         for (size_t k = 0; k < 3; ++k)
             own[k] *= moments[k];
         return brittle::turnedBy(turn, own);
-    }
-
-    // A place beyond what a world can hold is no number; checks call that lost.
-    static void moveTo(gpu::BodyState& state, const Point& place) {
-        constexpr double kFurthest = 1e6; // m
-        if (!std::ranges::all_of(place, [](double x) { return std::fabs(x) < kFurthest; })) {
-            state.offset.x = std::numeric_limits<float>::quiet_NaN();
-            return;
-        }
-        const brittle::SectorPlace at = brittle::inSectors(place);
-        state.sector = {at.sector.x, at.sector.y, at.sector.z, 0};
-        state.offset = {at.offset[0], at.offset[1], at.offset[2], state.offset.w};
     }
 
     brittle::StepSettings settings_;

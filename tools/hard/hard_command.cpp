@@ -6,6 +6,7 @@
 #include "tools/hard/hard_run.h"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <iterator>
@@ -31,20 +32,20 @@ const char* verdictOf(const HardCase& one) {
 }
 
 void printHead() {
-    std::printf("%-46s %-8s %-6s %10s %10s  %-44s %7s %9s\n", "case", "setting", "", "worst", "allowed", "of", "exact", "ms");
+    std::printf("%-46s %-13s %-6s %10s %10s  %-44s %7s %9s\n", "case", "setting", "", "worst", "allowed", "of", "exact", "ms");
 }
 
 void printRow(const HardCase& one) {
     const std::string what = one.why.empty() ? one.worst_kind + (one.unit.empty() ? "" : ", " + one.unit) : one.why;
     if (one.why.empty())
-        std::printf("%-46s %-8s %-6s %10.3g %10.3g  %-44s %7.0f %9.1f\n", one.name.c_str(), one.setting.c_str(), verdictOf(one),
-                    one.worst_error, one.allowed, what.c_str(), one.exact_tests, one.ms);
+        std::printf("%-46s %-13s %-6s %10.3g %10.3g  %-44s %7.0f %9.1f\n", one.name.c_str(), one.setting.c_str(),
+                    verdictOf(one), one.worst_error, one.allowed, what.c_str(), one.exact_tests, one.ms);
     else
-        std::printf("%-46s %-8s %-6s %s\n", one.name.c_str(), one.setting.c_str(), verdictOf(one), what.c_str());
+        std::printf("%-46s %-13s %-6s %s\n", one.name.c_str(), one.setting.c_str(), verdictOf(one), what.c_str());
     std::fflush(stdout);
 }
 
-bool isBullet(const HardCase& one) { return one.setting == hard::kBulletSetting; }
+bool isBullet(const HardCase& one) { return one.setting.starts_with(hard::kBulletSetting); }
 
 // Only exact promises what is asked of a break; the others are there to be compared.
 bool isPromised(const HardCase& one) { return one.setting != "double" && one.setting != "fast" && !isBullet(one); }
@@ -89,9 +90,9 @@ hard::RunWatch watchOnTerminal() {
         clearProgress();
         printRow(one);
     };
-    const auto left_out = [](const std::string& name, const std::string& why) {
+    const auto left_out = [](const HardCase& one) {
         clearProgress();
-        std::printf("%-46s %-8s left out: %s\n", name.c_str(), hard::kBulletSetting, why.c_str());
+        std::printf("%-46s %-13s left out: %s\n", one.name.c_str(), one.setting.c_str(), one.why.c_str());
     };
     return {begins, ended, left_out};
 }
@@ -146,6 +147,7 @@ constexpr const char* kFooter =
     "  brittle hard --only plate\n"
     "  brittle hard -o out/accuracy\n"
     "  brittle hard --only hard_38 --bullet\n"
+    "  brittle hard --scale 0.01 --long\n"
     "\n"
     "Sites in ties and crowds, models that are thin, tiny, huge, far away or of slivers, fragments of fragments, meshes that "
     "bound no\n"
@@ -156,7 +158,19 @@ constexpr const char* kFooter =
     "known to be out of reach. With -o the matrix goes into results.json and onto the page of that folder, next to what\n"
     "`brittle accuracy` has measured there. With --bullet a case of motion has a second row: Bullet moves the\n"
     "same scene and is judged by the same checks. It says which cases are left out since their checks ask for\n"
-    "more. The exit code is 0 where all that is promised holds; Bullet's rows promise nothing.";
+    "more. With --scale a case of motion is moved at S times its size, under the same gravity, in steps that are\n"
+    "longer by the root of S. Checks read the motion scaled back. Other cases are left out, and the command says why.\n"
+    "The exit code is 0 where all that is promised holds; Bullet's rows promise nothing.";
+
+// An error's text, or nothing if the text is a scale.
+std::string scaleText(const std::string& text) {
+    double scale = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), scale);
+    if (error == std::errc() && end == text.data() + text.size() && scale >= hard::kSmallestScale &&
+        scale <= hard::kLargestScale)
+        return "";
+    return "\"" + text + "\" is not a scale, expected a number from 0.001 to 1000";
+}
 
 } // namespace
 
@@ -169,6 +183,9 @@ void addHard(CLI::App& app, int& exit_code) {
         ->check(someText);
     command->add_flag("--long", options->run.is_long, "also those that take minutes each");
     command->add_flag("--bullet", options->run.with_bullet, "also Bullet, by the same checks; where the build has it");
+    command->add_option("--scale", options->run.scale, "only cases of motion, at S times their size; S: 0.001 to 1000")
+        ->option_text("S")
+        ->check(scaleText);
     command->add_flag("--list", options->list, "run nothing: the names of all cases");
     command->add_option("-o,--output", options->folder, "a folder for results.json and report.html")
         ->option_text("DIR")

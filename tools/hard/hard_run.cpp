@@ -3,10 +3,12 @@
 #include "tests/hard/hard_fractures.h"
 #include "tests/hard/hard_meshes.h"
 #include "tests/hard/hard_worlds.h"
+#include "tests/support/scaled_mover.h"
 #include "tools/bench/bullet_mover.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <limits>
 #include <memory>
 
@@ -15,6 +17,7 @@ namespace {
 
 using accuracy::HardCase;
 using brittle::Precision;
+using engine::Result;
 
 constexpr const char* kUsual = "as it is";
 constexpr Precision kPrecisions[] = {Precision::Exact, Precision::Double, Precision::Fast};
@@ -101,6 +104,56 @@ void addOthers(std::vector<Job>& jobs, const RunOptions& options) {
         if (options.is_long || !one.is_long) addScene(jobs, one, options.with_bullet);
 }
 
+// Returns for example "x0.01".
+std::string settingOf(double scale) {
+    std::string text(32, '\0');
+    text.resize(static_cast<size_t>(std::snprintf(text.data(), text.size(), "x%g", scale)));
+    return text;
+}
+
+void addScaledScene(std::vector<Job>& jobs, const SceneCase& one, engine::Device& device, const RunOptions& options) {
+    const auto add = [&](const std::string& setting, const support::MakeMover& make_inner) {
+        addJob(jobs, one.name, [&one](Trial& trial) { measureMotion(trial, one); });
+        jobs.back().setting = setting;
+        jobs.back().make_mover = support::scaledMover(device, *options.scale, make_inner);
+    };
+    add(settingOf(*options.scale), {});
+    if (options.with_bullet) add(kBulletSetting + (" " + settingOf(*options.scale)), bench::makeBulletMover);
+}
+
+void addLeftOut(std::vector<Job>& jobs, const std::string& name, const RunOptions& options) {
+    addJob(jobs, name.c_str(), [](Trial& trial) { trial.leaveOut("it moves no scene"); });
+    jobs.back().setting = settingOf(*options.scale);
+}
+
+void addScaled(std::vector<Job>& jobs, engine::Device& device, const RunOptions& options) {
+    for (const FractureCase& one : fractureCases())
+        addLeftOut(jobs, one.name, options);
+    for (const MeshCase& one : meshCases())
+        addLeftOut(jobs, one.name, options);
+    for (const PoolCase& one : poolCases())
+        addLeftOut(jobs, one.name, options);
+    for (const SceneCase& one : sceneCases())
+        if (options.is_long || !one.is_long) addScaledScene(jobs, one, device, options);
+}
+
+Result<std::vector<Job>> jobsOf(engine::Device& device, const RunOptions& options) {
+    std::vector<Job> jobs;
+    if (options.scale) {
+        addScaled(jobs, device, options);
+    } else {
+        auto made = brittle::Fracture::create(device);
+        if (!made) return made.error();
+        addFractures(jobs, std::shared_ptr<brittle::Fracture>(std::move(*made)));
+        addOthers(jobs, options);
+    }
+    std::erase_if(jobs, [&](const Job& job) { return job.name.find(options.only) == std::string::npos; });
+    if (jobs.empty())
+        return engine::Error{engine::ErrorCode::BadInput,
+                             "no hard case has \"" + options.only + "\" in its name; brittle hard --list names them all"};
+    return jobs;
+}
+
 // None of what is left out, of which `watch` is told.
 std::optional<HardCase> runJob(engine::Device& device, const Job& job, const RunWatch& watch) {
     Trial trial(device, job.make_mover);
@@ -113,25 +166,19 @@ std::optional<HardCase> runJob(engine::Device& device, const Job& job, const Run
         watch.ended(outcome);
         return outcome;
     }
-    watch.left_out(job.name, outcome.why);
+    watch.left_out(outcome);
     return std::nullopt;
 }
 
 } // namespace
 
-engine::Result<std::vector<HardCase>> runHardCases(engine::Device& device, const RunOptions& options, const RunWatch& watch) {
+Result<std::vector<HardCase>> runHardCases(engine::Device& device, const RunOptions& options, const RunWatch& watch) {
     if (options.with_bullet && !bench::hasBullet())
         return engine::Error{engine::ErrorCode::Feature,
                              "this build has no Bullet; install libbullet-dev and build again, or leave out --bullet"};
-    auto made = brittle::Fracture::create(device);
+    auto made = jobsOf(device, options);
     if (!made) return made.error();
-    std::vector<Job> jobs;
-    addFractures(jobs, std::shared_ptr<brittle::Fracture>(std::move(*made)));
-    addOthers(jobs, options);
-    std::erase_if(jobs, [&](const Job& job) { return job.name.find(options.only) == std::string::npos; });
-    if (jobs.empty())
-        return engine::Error{engine::ErrorCode::BadInput,
-                             "no hard case has \"" + options.only + "\" in its name; brittle hard --list names them all"};
+    const std::vector<Job>& jobs = *made;
     std::vector<HardCase> outcomes;
     for (size_t k = 0; k < jobs.size(); ++k) {
         watch.begins({k, jobs.size(), jobs[k].name, jobs[k].setting});

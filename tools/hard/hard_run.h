@@ -5,6 +5,7 @@
 #include "tools/accuracy/results.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@ struct RunOptions {
     std::string only; // cases whose name has this in it; empty: all
     bool is_long = false;
     bool with_bullet = false;
+    std::optional<double> scale; // runs only cases of motion, at this multiple of their size
 };
+constexpr double kSmallestScale = 1e-3, kLargestScale = 1e3;
 
-constexpr const char* kBulletSetting = "Bullet"; // of rows that judge Bullet, which promise nothing
+constexpr const char* kBulletSetting = "Bullet"; // begins the setting of rows that judge Bullet, which promise nothing
 
 struct RunStep {
     size_t number = 0, count = 0; // the first is 0
@@ -27,12 +30,12 @@ struct RunStep {
 struct RunWatch {
     std::function<void(const RunStep&)> begins;
     std::function<void(const accuracy::HardCase&)> ended;
-    std::function<void(const std::string& name, const std::string& why)> left_out; // by Bullet, and of no outcome
+    std::function<void(const accuracy::HardCase&)> left_out; // its `why` is the reason; there is no outcome
 };
 
-// With Bullet, a case of motion is run by Brittle and then by Bullet, in the same steps, and judged by the same checks. Errors:
-// BadInput, where no case has such a name; Feature, where Bullet is not in the build; Device, where fracture cannot be made. A
-// case that fails is a case that says why.
+// With Bullet, a case of motion is run by Brittle and then by Bullet, in the same steps, and judged by the same checks.
+// With a scale, cases that do not judge motion alone are left out. Errors: BadInput, where no case has such a name; Feature,
+// where Bullet is not in the build; Device, where fracture cannot be made. A case that fails is a case that says why.
 engine::Result<std::vector<accuracy::HardCase>> runHardCases(engine::Device& device, const RunOptions& options,
                                                              const RunWatch& watch);
 

@@ -20,7 +20,7 @@ using engine::Error;
 using engine::ErrorCode;
 using engine::Result;
 
-constexpr double kPlaneEdge = 1000, kPlaneDepth = 10; // m, of the hull that is always below what a plane is held against
+constexpr double kPlaneEdge = 1000, kLeastDepth = 10; // m, of the hull that is always below what a plane is held against
 constexpr double kLeastShown = 10;                    // m, of a plane's edge
 constexpr uint64_t kStrengthSeed = 1;
 
@@ -107,15 +107,13 @@ double volumeOf(const FragmentSet& set) {
     return volume;
 }
 
-PieceShape planePiece() {
-    const auto hull = hullOfPoints(std::vector<Double3>{{-kPlaneEdge / 2, 0, -kPlaneEdge / 2},
-                                                        {kPlaneEdge / 2, 0, -kPlaneEdge / 2},
-                                                        {-kPlaneEdge / 2, 0, kPlaneEdge / 2},
-                                                        {kPlaneEdge / 2, 0, kPlaneEdge / 2},
-                                                        {-kPlaneEdge / 2, -kPlaneDepth, -kPlaneEdge / 2},
-                                                        {kPlaneEdge / 2, -kPlaneDepth, -kPlaneEdge / 2},
-                                                        {-kPlaneEdge / 2, -kPlaneDepth, kPlaneEdge / 2},
-                                                        {kPlaneEdge / 2, -kPlaneDepth, kPlaneEdge / 2}});
+PieceShape planePiece(double depth) {
+    std::vector<Double3> corners;
+    for (const double y : {0.0, -depth})
+        for (const double z : {-kPlaneEdge / 2, kPlaneEdge / 2})
+            for (const double x : {-kPlaneEdge / 2, kPlaneEdge / 2})
+                corners.push_back({x, y, z});
+    const auto hull = hullOfPoints(corners);
     PieceShape piece = pieceOf(hull->hull, {0, 0, 0});
     piece.is_plane = true;
     return piece;
@@ -138,6 +136,14 @@ std::vector<PieceShape> piecesOf(const ImportedMesh& model) {
         pieces.push_back(std::move(piece));
     }
     return pieces;
+}
+
+// Of the bodies that move.
+double largestRadius(const WorldContents& contents) {
+    double largest = 0;
+    for (size_t k = 0; k < contents.bodies.size(); ++k)
+        if (contents.bodies[k].offset.w > 0) largest = std::max(largest, double{contents.shapes[k].inverse_inertia[2].w});
+    return largest;
 }
 
 // A few times as far as bodies reach at the beginning.
@@ -337,7 +343,7 @@ Result<void> ContentsMaker::addCollider(const ColliderDescription& d, const std:
 }
 
 Result<void> ContentsMaker::addPlane(const ColliderDescription& d, BodyDefinition body) {
-    body.pieces = {planePiece()};
+    body.pieces = {planePiece(std::max(kLeastDepth, 2 * largestRadius(contents_)))}; // else a body might leave it below
     body.place = middleOf(d, scene_.bodies);
     return add(
         body, [&] { return squareSurface(shownEdge(contents_, body.place)); }, true);
