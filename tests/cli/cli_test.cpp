@@ -225,7 +225,7 @@ TEST_F(Cli, NamesThatPromiseAnotherFormatAreRefused) {
     }
 }
 
-// What is printed fills more than a buffer, and less.
+// Some commands print more than a buffer holds, and some print less.
 TEST_F(Cli, AFullDiskBehindStandardOutputIsAnError) {
     for (const std::string& words :
          {std::string("plan card_house --json"), std::string("scenes --json"), std::string("scenes --keys"),

@@ -7,7 +7,8 @@
 
 namespace cli {
 
-// The example of this name, such as "window_pane.toml" or "vase.obj". Empty if there is none, or if `name` leads into a folder.
+// The example of this name, such as "window_pane.toml" or "vase.obj". Empty if it does not exist, or if `name` leads into a
+// folder.
 //
 // Examples of an installed program are in share/brittle/examples, beside the folder of the program. Those of a build are in its
 // source tree.

@@ -14,8 +14,8 @@ constexpr const char* kModelHelp = "OBJ, PLY, STL, OFF, GLB, glTF, FBX or DAE fi
 constexpr const char* kRepairHelp =
     "mend what is well defined (seams, doubled triangles, orientation, small holes); refuse the rest";
 
-// Reads a file or, if there is none of that name, an example. Makes a built-in model of the name after "builtin:". Errors of
-// all of these begin with the name given.
+// Reads a file or, if it does not exist, the example of that name. Makes a built-in model of the name after "builtin:". Errors
+// of all of these begin with the name given.
 engine::Result<brittle::ImportedMesh> importModel(const std::string& name);
 
 // Prepared, not yet checked. With `repair` mended as well, if it needs to be, and then sound for sure.

@@ -1,4 +1,4 @@
-// What to say of a word on the command line that is no subcommand and no option.
+// Answers a word on the command line that the program does not know.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -6,7 +6,6 @@
 #include "tools/hard/hard_run.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <iterator>
@@ -162,16 +161,6 @@ constexpr const char* kFooter =
     "longer by the root of S. Checks read the motion scaled back. Other cases are left out, and the command says why.\n"
     "The exit code is 0 where all that is promised holds; Bullet's rows promise nothing.";
 
-// An error's text, or nothing if the text is a scale.
-std::string scaleText(const std::string& text) {
-    double scale = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), scale);
-    if (error == std::errc() && end == text.data() + text.size() && scale >= hard::kSmallestScale &&
-        scale <= hard::kLargestScale)
-        return "";
-    return "\"" + text + "\" is not a scale, expected a number from 0.001 to 1000";
-}
-
 } // namespace
 
 void addHard(CLI::App& app, int& exit_code) {
@@ -183,9 +172,9 @@ void addHard(CLI::App& app, int& exit_code) {
         ->check(someText);
     command->add_flag("--long", options->run.is_long, "also those that take minutes each");
     command->add_flag("--bullet", options->run.with_bullet, "also Bullet, by the same checks; where the build has it");
-    command->add_option("--scale", options->run.scale, "only cases of motion, at S times their size; S: 0.001 to 1000")
-        ->option_text("S")
-        ->check(scaleText);
+    CLI::Option* scale =
+        command->add_option("--scale", options->run.scale, "only cases of motion, at S times their size; S: 0.001 to 1000");
+    inRange(scale, hard::kSmallestScale, hard::kLargestScale)->option_text("S");
     command->add_flag("--list", options->list, "run nothing: the names of all cases");
     command->add_option("-o,--output", options->folder, "a folder for results.json and report.html")
         ->option_text("DIR")
