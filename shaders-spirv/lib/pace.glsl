@@ -73,7 +73,7 @@ float edgeOf(uint body) {
     return inverseMassOf(body) != 0.0 ? edge : 3e38;
 }
 
-// Tells whether one body of a contact may lean on the other in this step. Where gravity moves bodies by about their size in a step, contacts are
+// Returns whether one body of a contact may lean on the other in this step. Where gravity moves bodies by about their size in a step, contacts are
 // looked for as far away: a cube of a stack has some with all others. Such a contact makes no stack lower, and no stack a heap.
 const float kLeaning = 0.9; // edges of the smaller body: points further apart do not count
 const float kFarFall = 0.5; // edges: the rule holds if a body at rest would fall this far in a step
@@ -97,7 +97,7 @@ float muchHeavier() { return push_.heaps_too != 0u ? 4.0 : 7.5; }
 
 const float kPinnedRatio = 1.5;
 
-// Whether one body of a contact is so much heavier that the other one is driven away: much heavier, or heavier than one that lies on what
+// Returns whether one body of a contact would drive the other one away: it is much heavier, or heavier than one that lies on what
 // does not move. Wants the heights of this step.
 bool isUneven(uvec2 ids) {
     float a = inverseMassOf(ids.x), b = inverseMassOf(ids.y), ratio = ratioOf(ids);

@@ -138,7 +138,7 @@ std::vector<PieceShape> piecesOf(const ImportedMesh& model) {
     return pieces;
 }
 
-// Of the bodies that move.
+// Leaves out bodies that do not move.
 double largestRadius(const WorldContents& contents) {
     double largest = 0;
     for (size_t k = 0; k < contents.bodies.size(); ++k)
