@@ -20,6 +20,7 @@
 #include "lib/blow.glsl"
 #include "lib/blow_speed.glsl"
 #include "lib/effect.glsl"
+#include "lib/has_turned.glsl"
 
 FRICTION_EFFECT;
 
@@ -28,22 +29,40 @@ struct Touching {
     vec3 moved;               // of B against A since the step began
     vec3 slid_a, slid_b;      // by how much arms that follow have grown
     vec4 turned_a, turned_b;
+    float arms;               // ARMS_*
+    bool has_turned;          // so far that arms have to turn, too
     bool presses_anew;        // effective masses along the normal may no longer be those of the beginning
     bool rubs_anew;           // the others
 };
-
-vec3 shifted(vec4 turn, vec3 arm) { return turned(turn, arm) - arm; }
 
 float separationOf(SolverPoint p, Touching t, vec3 normal) {
     return p.arm_a.w + dot(normal, t.moved + shifted(t.turned_b, p.arm_b.xyz) - shifted(t.turned_a, p.arm_a.xyz));
 }
 
-void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {
-    push(t.a, -impulse, -cross(arm_a + t.slid_a, impulse));
-    push(t.b, impulse, cross(arm_b + t.slid_b, impulse));
+// Arms of a point as they are now.
+struct Arms {
+    vec3 a, b;
+};
+
+Arms armsNow(Touching t, vec3 arm_a, vec3 arm_b) {
+    Arms arms = Arms(arm_a + t.slid_a, arm_b + t.slid_b);
+    if (t.has_turned) {
+        arms.a += shiftOfArm(arm_a, arm_b, t.turned_a, t.turned_b, t.arms, false);
+        arms.b += shiftOfArm(arm_a, arm_b, t.turned_a, t.turned_b, t.arms, true);
+    }
+    return arms;
 }
 
-vec3 slipAt(Touching t, vec3 arm_a, vec3 arm_b) { return velocityAt(t.b, arm_b + t.slid_b) - velocityAt(t.a, arm_a + t.slid_a); }
+void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {
+    Arms arms = armsNow(t, arm_a, arm_b);
+    push(t.a, -impulse, -cross(arms.a, impulse));
+    push(t.b, impulse, cross(arms.b, impulse));
+}
+
+vec3 slipAt(Touching t, vec3 arm_a, vec3 arm_b) {
+    Arms arms = armsNow(t, arm_a, arm_b);
+    return velocityAt(t.b, arms.b) - velocityAt(t.a, arms.a);
+}
 
 // Of separation, along the normal.
 float speedAt(SolverPoint p, vec3 normal, Touching t) { return dot(normal, slipAt(t, p.arm_a.xyz, p.arm_b.xyz)); }
@@ -67,7 +86,8 @@ float inverseOf(float x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
 // Of what an impulse along v gives along u, at a point.
 float yieldBetween(Touching t, vec3 arm_a, vec3 arm_b, vec3 u, vec3 v) {
-    return yieldAlong(t.a, arm_a + t.slid_a, u, v) + yieldAlong(t.b, arm_b + t.slid_b, u, v);
+    Arms arms = armsNow(t, arm_a, arm_b);
+    return yieldAlong(t.a, arms.a, u, v) + yieldAlong(t.b, arms.b, u, v);
 }
 
 float massAt(SolverPoint p, vec3 normal, Touching t) {
@@ -182,18 +202,6 @@ void rubContact(uint c, vec4 normal, uint points, inout Touching t) {
     solver_contacts[c].rub = rub;
 }
 
-float traceOf(SolverBody b) { return b.inertia.x + b.inertia.w + b.spin.w; }
-
-// How far a body has turned, times how unlike its moments of inertia are: 0 for a cube, 1.4 for a rod.
-float changeByTurn(SolverBody b) {
-    float trace = traceOf(b), per_trace = trace > 0.0 ? 1.0 / trace : 0.0;
-    vec3 diagonal = per_trace * vec3(b.inertia.x, b.inertia.w, b.spin.w), side = per_trace * vec3(b.inertia.yz, b.moved.w);
-    float unlike = 3.0 * (dot(diagonal, diagonal) + 2.0 * dot(side, side)) - 1.0;
-    return unlike > 0.0 ? length(b.turned.xyz) * sqrt(unlike) : 0.0;
-}
-
-const float kHardlyTurned = 0.1, kHardlySlid = 0.05;
-
 // Whether arms that have grown by so much make effective masses others than when the step began.
 bool hasGrown(SolverBody a, SolverBody b, vec3 slid_a, vec3 slid_b) {
     return dot(slid_a, slid_a) * traceOf(a) + dot(slid_b, slid_b) * traceOf(b) > kHardlySlid * (a.velocity.w + b.velocity.w);
@@ -205,8 +213,8 @@ Touching touchingOf(uint c, uvec4 ids, vec3 normal) {
     SolverBody a = solver_bodies[ids.x], b = solver_bodies[ids.y];
     float arms = solver_contacts[c].rub_mass.w;
     vec3 slid_a = followed(a, b, arms, false), slid_b = followed(a, b, arms, true);
-    bool has_turned = max(changeByTurn(a), changeByTurn(b)) > kHardlyTurned;
-    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, slid_a, slid_b, a.turned, b.turned,
+    bool has_turned = hasTurned(c, ids.z, a, b);
+    return Touching(movingOf(a), movingOf(b), b.moved.xyz - a.moved.xyz, slid_a, slid_b, a.turned, b.turned, arms, has_turned,
                     has_turned || hasGrown(a, b, beside(slid_a, normal), beside(slid_b, normal)),
                     has_turned || hasGrown(a, b, slid_a, slid_b));
 }

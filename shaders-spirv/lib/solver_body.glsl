@@ -30,6 +30,15 @@ vec3 followed(SolverBody a, SolverBody b, float arms, bool of_b) {
     return arms != float(of_b ? ARMS_OF_B_FOLLOW : ARMS_OF_A_FOLLOW) ? vec3(0.0) : (of_b ? -apart : apart);
 }
 
+vec3 shifted(vec4 turn, vec3 arm) { return turned(turn, arm) - arm; }
+
+// By how much the turning of bodies has moved the arms of a point since the step began. Both bodies are met at one point: that of the
+// body which the other's arms follow.
+vec3 shiftOfArm(vec3 arm_a, vec3 arm_b, vec4 turned_a, vec4 turned_b, float arms, bool of_b) {
+    bool by_b = of_b ? arms != float(ARMS_OF_B_FOLLOW) : arms == float(ARMS_OF_A_FOLLOW);
+    return by_b ? shifted(turned_b, arm_b) : shifted(turned_a, arm_a);
+}
+
 vec3 velocityAt(Moving m, vec3 arm) { return m.velocity + cross(m.spin, arm); }
 
 // How much speed along v an impulse along u at the arm gives.

@@ -36,10 +36,6 @@ void stop(uint b) {
     atomicMax(counts[STATUS_STOPPED_BODY], b + 1u);
 }
 
-float shareFor(uint b, vec3 moved) {
-    return min(uintBitsToFloat(shares[2u * b]), shareOfWay(moved, bodies[b].velocity.xyz, gravity, thicknessOf(shapes[b])));
-}
-
 vec3 falling = gravity.w * gravity.xyz; // in the step
 
 // Of what gravity would have given it, in free fall 1.
@@ -72,9 +68,10 @@ void main() {
     vec4 from = bodies[b].turn, turn = normalize(turnAfter(s.turned, from));
     mat3 own = ownInverseInertia(shapes[b]);
     vec3 momentum = takeUpSpin(b, own, turn, s.spin.xyz), spin = s.spin.xyz;
-    float share = kCcd != 0u ? shareFor(b, s.moved.xyz) : 1.0;
+    Way way = wayOf(s, bodies[b].velocity.xyz, bodies[b].spin.xyz, gravity, thicknessOf(shapes[b]));
+    float share = kCcd != 0u ? min(uintBitsToFloat(shares[2u * b]), way.share) : 1.0;
     if (share < 1.0) {
-        vec4 held = normalize(turnAfter(shareOfTurn(s.turned, share), from)), back = turnAfter(held, turnBack(turn));
+        vec4 held = normalize(turnAfter(turnedAt(way, share), from)), back = turnAfter(held, turnBack(turn));
         // Along with the body, or it would have another energy.
         bodies[b].momentum.xyz = turned(back, momentum);
         spin = turned(back, spin);
@@ -86,7 +83,8 @@ void main() {
     }
     float slowed = kCcd != 0u ? shareOfSpeed(b) : 1.0, gained = gainedBy(b, s.velocity.xyz);
     noteBorne(b, gained);
-    moveTo(b, bodies[b].offset.xyz + share * s.moved.xyz);
+    vec3 moved = share < 1.0 ? placeAt(way, share) : s.moved.xyz;
+    moveTo(b, bodies[b].offset.xyz + moved);
     bodies[b].turn = turn;
     bodies[b].velocity.xyz = slowed * velocityAtEnd(s.velocity.xyz, gained, 1.0 - share);
     bodies[b].spin.xyz = slowed * spin;

@@ -39,9 +39,8 @@ const float kMuchLighter = 0.01;
 struct Side {
     uint body;
     HullRecord hull;
-    vec4 from, turned_; // at the beginning of the step, and since
-    vec3 moved;
-    float share;        // that its own way allows
+    vec4 from; // at the beginning of the step
+    Way way;
     bool is_swift, is_held; // for its size; by the other one
 };
 
@@ -56,15 +55,16 @@ bool isHeldBy(uint other, uint body, float way, float turn) {
 
 Side sideOf(uint body, uint piece, uint other) {
     SolverBody s = solver_bodies[body];
-    float share = moves(body) ? shareOfWay(s.moved.xyz, bodies[body].velocity.xyz, gravity, thicknessOf(shapes[body])) : 1.0;
-    float way = share * length(s.moved.xyz), turn = 2.0 * length(s.turned.xyz);
-    return Side(body, hulls[pieces[piece].ids.x], bodies[body].turn, s.turned, s.moved.xyz, share,
-                moves(body) && isSwift(way, turn, shapes[body]), isHeldBy(other, body, way, turn));
+    Way way = wayOf(s, bodies[body].velocity.xyz, bodies[body].spin.xyz, gravity, thicknessOf(shapes[body]));
+    if (!moves(body)) way = Way(vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0), vec4(0.0, 0.0, 0.0, 1.0), 0.0, 1.0);
+    float length_ = length(placeAt(way, way.share)), turn = 2.0 * length(s.turned.xyz);
+    return Side(body, hulls[pieces[piece].ids.x], bodies[body].turn, way, moves(body) && isSwift(length_, turn, shapes[body]),
+                isHeldBy(other, body, length_, turn));
 }
 
-float shareAt(Side side, float share) { return side.is_held ? min(share, side.share) : side.share; }
+float shareAt(Side side, float share) { return side.is_held ? min(share, side.way.share) : side.way.share; }
 
-vec4 turnAt(Side side, float share) { return turnAfter(shareOfTurn(side.turned_, shareAt(side, share)), side.from); }
+vec4 turnAt(Side side, float share) { return turnAfter(turnedAt(side.way, shareAt(side, share)), side.from); }
 
 // The lowest and the highest corner along a direction, above the body's center of mass.
 vec2 heightsOf(Side side, vec4 turn, vec3 n) {
@@ -85,7 +85,7 @@ vec3 depthAt(uint pair, Side a, Side b, vec3 way, float share) {
     vec4 since = with_a ? turnAfter(turn_a, turnBack(memory[pair].turn_a)) : turnAfter(turn_b, turnBack(memory[pair].turn_b));
     vec3 n = turned(since, memory[pair].normal.xyz);
     vec2 of_a = heightsOf(a, turn_a, n), from_b = heightsOf(b, turn_b, n);
-    vec3 apart = way + shareAt(b, share) * b.moved - shareAt(a, share) * a.moved;
+    vec3 apart = way + placeAt(b.way, shareAt(b, share)) - placeAt(a.way, shareAt(a, share));
     return vec3(of_a.y - from_b.x - dot(n, apart), of_a.y - of_a.x, from_b.y - from_b.x);
 }
 

@@ -129,17 +129,19 @@ void meetAll(uint lane, uvec2 range, bool now) {
     for (uint round = 0u; round < rounds && turns_left != 0u; round++) {
         if (lane == 0u) met = 0u;
         sync();
-        uint at = rounds != 0u ? range.x : range.y;
+        uint at = rounds != 0u ? range.x : range.y, rows = 0u, walked = 0u;
         for (uint color = 0u; color < kMostContacts && at < range.y; color++) {
             uint end = color_ends[at];
             for (uint c = at + lane; c < end; c += LANES) meetContact(c);
             sync();
-            turns_left -= min(turns_left, 2u + 16u * ((end - at + kLanes - 1u) / kLanes));
+            rows += (end - at + kLanes - 1u) / kLanes;
+            walked += 2u;
             at = end;
         }
-        bool any_met = met != 0u;
+        uint sweeps = met;
         barrier();
-        rounds = any_met ? rounds : 0u;
+        turns_left -= min(turns_left, walked + (sweeps + 8u) * rows);
+        rounds = sweeps != 0u ? rounds : 0u;
     }
 }
 #endif

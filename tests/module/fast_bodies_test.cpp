@@ -128,6 +128,26 @@ TEST_P(FastBodies, NeverPassAPlateThatIsFreeOrComesAtThem) {
 INSTANTIATE_TEST_SUITE_P(, FastBodies, testing::ValuesIn(kShots),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// Without friction the way along the wall is not held back. What stopped before the wall would fly along it at that distance.
+TEST(FastBodiesThatComeInAslant, StopWhereTheyTouch) {
+    for (const double speed : {20., 40., 60., 100., 200.})
+        for (const uint32_t cells : {0u, 8u}) {
+            SceneDescription scene = emptyScene();
+            BodyDescription& cube = scene.bodies.emplace_back();
+            cube.shape = {.kind = ShapeKind::Box, .size = {0.2, 0.2, 0.2}, .cells = {.sites = cells}};
+            cube.place = {-1.98, 0, 2.64};
+            cube.velocity = {0.6 * speed, 0, -0.8 * speed};
+            cube.surface = {.friction = 0, .restitution = 0};
+            brittle::ColliderDescription& wall = scene.colliders.emplace_back();
+            wall.shape = {.kind = ShapeKind::Box, .size = {200, 200, kThickness}};
+            wall.surface = cube.surface;
+            SceneRun run(scene);
+            run.step(20);
+            EXPECT_NEAR(run.place(0)[2], 0.1 + kThickness / 2, 1e-3 * speed / 60) << speed << " m/s, " << cells << " cells";
+            EXPECT_NEAR(double{run.state(0).velocity.x}, 0.6 * speed, 1e-3 * speed) << speed << " m/s, " << cells << " cells";
+        }
+}
+
 // Their way leads along the wall after the blow, through another one that nothing had led to before.
 TEST(FastBodiesInACorner, StayInIt) {
     for (uint32_t seed = 0; seed < 8; ++seed) {

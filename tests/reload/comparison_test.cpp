@@ -77,8 +77,8 @@ protected:
     }
 };
 
-const Fault kFaultOfEnd = {"solver", "end_step", "bodies[b].offset.xyz + share * s.moved.xyz",
-                           "bodies[b].offset.xyz + 1.01 * share * s.moved.xyz"};
+const Fault kFaultOfEnd = {"solver", "end_step", "bodies[b].offset.xyz + moved",
+                           "bodies[b].offset.xyz + 1.01 * moved"};
 
 } // namespace
 

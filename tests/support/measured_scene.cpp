@@ -107,11 +107,14 @@ double MeasuredScene::meanWay() const {
     return moving == 0 ? 0 : sum / moving;
 }
 
+double MeasuredScene::kineticEnergy(size_t b) const {
+    return 0.5 * speed(b) * speed(b) / now_[b].offset.w + 0.5 * brittle::dot(xyz(now_[b].momentum), xyz(now_[b].spin));
+}
+
 double MeasuredScene::kineticEnergy() const {
     double sum = 0;
     for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b))
-            sum += 0.5 * speed(b) * speed(b) / now_[b].offset.w + 0.5 * brittle::dot(xyz(now_[b].momentum), xyz(now_[b].spin));
+        if (moves(b)) sum += kineticEnergy(b);
     return sum;
 }
 

@@ -35,6 +35,7 @@ public:
     brittle::Double3 place(size_t body) const;
     brittle::Double3 way(size_t body) const; // since the beginning
     double speed(size_t body) const;
+    double kineticEnergy(size_t body) const; // J
 
     // Over all bodies that move.
     double fastest() const;

@@ -1,0 +1,13 @@
+// A turn by so many rad about an axis.
+#ifndef TURN_BY_GLSL
+#define TURN_BY_GLSL
+#include "lib/quaternion.glsl"
+#include "lib/trigonometry.glsl"
+
+vec4 turnBy(vec3 turn) {
+    float angle = length(turn);
+    vec2 half_turn = sineAndCosine(0.5 * angle);
+    return vec4(half_turn.x / max(angle, 1e-37) * turn, half_turn.y);
+}
+
+#endif
