@@ -128,6 +128,7 @@ TEST_F(HardCli, RefusesWhatThereIsNot) {
         EXPECT_NE(run.err.find(holds), std::string::npos) << run.err;
     };
     expectRefused(hard({"--only", "no such case"}), "brittle hard --list");
+    expectRefused(hard({"--list", "--only", "no such case"}), "brittle hard --list");
     expectRefused(hard({"--only", ""}), "empty name");
     expectRefused(hard({"--device", "no such device"}), "no such device", 4);
     expectRefused(hard({"-o", "/proc/no"}), "/proc/no");
@@ -138,6 +139,12 @@ TEST_F(HardCli, RefusesWhatThereIsNot) {
     std::ofstream(path("page/results.json")) << "{";
     expectRefused(hard({"-o", path("page")}), "results.json");
     EXPECT_EQ(fileBytes(path("page/results.json")), "{") << "what is there stays";
+}
+
+TEST_F(HardCli, ListsOnlyTheCasesThatAreAskedFor) {
+    const Outcome run = hard({"--list", "--only", "hard_38_cradle"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "hard_38_cradle_touching\nhard_38_cradle_1mm\nhard_38_cradle_10mm\n");
 }
 
 } // namespace

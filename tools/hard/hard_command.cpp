@@ -116,11 +116,19 @@ Result<void> prepare(const fs::path& folder, accuracy::ResultFiles& files) {
     return files.open(folder, {accuracy::kResultsFile, accuracy::kPageFile});
 }
 
+Result<void> listCases(const std::string& only) {
+    std::vector<std::string> names = hard::hardCaseNames();
+    std::erase_if(names, [&](const std::string& name) { return name.find(only) == std::string::npos; });
+    if (names.empty()) return hard::noCaseNamed(only);
+    for (const std::string& name : names)
+        std::printf("%s\n", name.c_str());
+    return {};
+}
+
 int runHard(const HardOptions& options) {
     if (options.list) {
-        for (const std::string& name : hard::hardCaseNames())
-            std::printf("%s\n", name.c_str());
-        return kOk;
+        const auto listed = listCases(options.run.only);
+        return listed ? kOk : fail(listed.error());
     }
     const auto device = engine::Device::create({.select = options.device});
     if (!device) return fail(device.error());
@@ -175,7 +183,7 @@ void addHard(CLI::App& app, int& exit_code) {
     CLI::Option* scale =
         command->add_option("--scale", options->run.scale, "only cases of motion, at S times their size; S: 0.001 to 1000");
     inRange(scale, hard::kSmallestScale, hard::kLargestScale)->option_text("S");
-    command->add_flag("--list", options->list, "run nothing: the names of all cases");
+    command->add_flag("--list", options->list, "run nothing: print the names of all cases, or of those that --only leaves");
     command->add_option("-o,--output", options->folder, "a folder for results.json and report.html")
         ->option_text("DIR")
         ->check(someText);

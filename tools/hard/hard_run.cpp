@@ -148,9 +148,7 @@ Result<std::vector<Job>> jobsOf(engine::Device& device, const RunOptions& option
         addOthers(jobs, options);
     }
     std::erase_if(jobs, [&](const Job& job) { return job.name.find(options.only) == std::string::npos; });
-    if (jobs.empty())
-        return engine::Error{engine::ErrorCode::BadInput,
-                             "no hard case has \"" + options.only + "\" in its name; brittle hard --list names them all"};
+    if (jobs.empty()) return noCaseNamed(options.only);
     return jobs;
 }
 
@@ -185,6 +183,10 @@ Result<std::vector<HardCase>> runHardCases(engine::Device& device, const RunOpti
         if (auto outcome = runJob(device, jobs[k], watch)) outcomes.push_back(std::move(*outcome));
     }
     return outcomes;
+}
+
+engine::Error noCaseNamed(const std::string& only) {
+    return {engine::ErrorCode::BadInput, "no hard case has \"" + only + "\" in its name; brittle hard --list names them all"};
 }
 
 std::vector<std::string> hardCaseNames() {

@@ -42,4 +42,7 @@ engine::Result<std::vector<accuracy::HardCase>> runHardCases(engine::Device& dev
 // Of all cases, in order; those that --long adds say so.
 std::vector<std::string> hardCaseNames();
 
+// The error where no case has `only` in its name: BadInput.
+engine::Error noCaseNamed(const std::string& only);
+
 } // namespace hard
