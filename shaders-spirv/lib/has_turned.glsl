@@ -1,5 +1,5 @@
-// Effective masses and arms of contacts are found when a step begins. This tells whether bodies have turned so far since that they no
-// longer hold. Wants `solver_contacts` declared.
+// Effective masses and arms of contacts are found when a step begins. Once bodies have turned far enough, they no longer hold.
+// Wants `solver_contacts` declared.
 #ifndef HAS_TURNED_GLSL
 #define HAS_TURNED_GLSL
 #include "lib/solver_body.glsl"
@@ -15,6 +15,7 @@ float changeByTurn(SolverBody b) {
 }
 
 const float kNoTurn = 1e-3, kHardlyTurned = 0.1, kHardlySlid = 0.05;
+const float kTurnSquared = 1.5; // makes about the square of an angle of that of changeByTurn: of a rod 2 would
 
 // The squares of the longest arms of a contact.
 vec2 longestArms(uint c, uint points) {
@@ -31,7 +32,7 @@ vec2 longestArms(uint c, uint points) {
 bool hasTurned(uint c, uint points, SolverBody a, SolverBody b) {
     vec2 turns = vec2(changeByTurn(a), changeByTurn(b));
     if (max(turns.x, turns.y) < kNoTurn) return false;
-    vec2 moved = 1.5 * turns * turns * longestArms(c, points);
+    vec2 moved = kTurnSquared * turns * turns * longestArms(c, points);
     return max(turns.x, turns.y) > kHardlyTurned || dot(moved, vec2(traceOf(a), traceOf(b))) > kHardlySlid * (a.velocity.w + b.velocity.w);
 }
 

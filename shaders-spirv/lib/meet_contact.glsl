@@ -11,15 +11,22 @@ const float kHardlyChanged = 1e-6; // of the greatest impulse
 const float kAny = 1e30;           // m/s, and m
 const float kAtOnce = 1e-3;        // of a substep
 
+// Returns the speeds with which the points go apart.
+vec4 speedsOf(uint points, SolverPoint p[MANIFOLD_POINTS], vec3 normal, Touching t) {
+    vec4 speeds = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
+        if (k < points) speeds[k] = speedAt(p[k], normal, t);
+    return speeds;
+}
+
 // Returns what gap of a point is left after the substep if it goes on as it does, and kAny for one that is too slow to bounce.
-float gapLeft(SolverPoint p, vec3 normal, float lag, Touching t) {
-    float speed = speedAt(p, normal, t);
-    return lag - speed > stiff.w ? separationOf(p, t, normal) + gravity.w * (speed - 2.0 * lag) : kAny;
+float gapLeft(float separation, float speed, float lag) {
+    return lag - speed > stiff.w ? separation + gravity.w * (speed - 2.0 * lag) : kAny;
 }
 
 // With what speed a point that meets may come in: it has to part instead.
-float closingAllowed(SolverPoint p, vec3 normal, float restitution, float lag, Touching t) {
-    float separation = separationOf(p, t, normal), comes_in = lag - speedAt(p, normal, t);
+float closingAllowed(float separation, float speed, float restitution, float lag) {
+    float comes_in = lag - speed;
     // It gains on the way that is left, and loses as much on the way back to here.
     float gains = 4.0 * lag / gravity.w * max(separation, 0.0);
     float leaves = sqrt(max(restitution * restitution * (comes_in * comes_in + gains) - gains, 0.0));
@@ -28,14 +35,17 @@ float closingAllowed(SolverPoint p, vec3 normal, float restitution, float lag, T
 
 // Points that close their gap within the substep have to part. Others may come in as they like: if they meet by what this impact does,
 // that is an impact of its own. But corners of a face that comes in flat meet at once, though rounding may have one of them a hair behind.
-vec4 closingsAllowed(SolverPoint p[MANIFOLD_POINTS], uint points, vec3 normal, float restitution, float lag, Touching t) {
-    vec4 left = vec4(kAny), allowed = vec4(kAny);
-    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
-        if (k < points) left[k] = gapLeft(p[k], normal, lag, t);
+vec4 closingsAllowed(uint points, SolverPoint p[MANIFOLD_POINTS], vec4 speeds, vec3 normal, float restitution, float lag, Touching t) {
+    vec4 separations = vec4(0.0), left = vec4(kAny), allowed = vec4(kAny);
+    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
+        if (k >= points) continue;
+        separations[k] = separationOf(p[k], t, normal);
+        left[k] = gapLeft(separations[k], speeds[k], lag);
+    }
     bool meets = min(min(left.x, left.y), min(left.z, left.w)) <= 0.0;
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) {
-        float behind = k < points ? kAtOnce * gravity.w * (lag - speedAt(p[k], normal, t)) : 0.0;
-        if (k < points && meets && left[k] <= behind) allowed[k] = closingAllowed(p[k], normal, restitution, lag, t);
+        float behind = kAtOnce * gravity.w * (lag - speeds[k]);
+        if (k < points && meets && left[k] <= behind) allowed[k] = closingAllowed(separations[k], speeds[k], restitution, lag);
     }
     return allowed;
 }
@@ -47,10 +57,10 @@ float impulseToMeet(float total, SolverPoint p, float allowed, vec3 normal, inou
 }
 
 // All points that meet at once, if none would have to pull: sweeps alone converge slowly when a face meets a face.
-vec4 impulsesTogether(uint c, uint points, SolverPoint p[MANIFOLD_POINTS], vec4 allowed, vec3 normal, bool meets, inout Touching t) {
+vec4 impulsesTogether(uint c, uint points, SolverPoint p[MANIFOLD_POINTS], vec4 speeds, vec4 allowed, vec3 normal, bool meets, inout Touching t) {
     vec4 lacks = vec4(0.0);
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
-        if (k < points && allowed[k] < 0.0) lacks[k] = speedAt(p[k], normal, t) + allowed[k];
+        if (k < points && allowed[k] < 0.0) lacks[k] = speeds[k] + allowed[k];
     vec4 total = -(pressOf(c) * lacks);
     if (!meets || t.presses_anew || any(lessThan(total, vec4(0.0)))) total = vec4(0.0);
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
@@ -71,16 +81,8 @@ uint meetPoints(uint points, SolverPoint p[MANIFOLD_POINTS], vec4 allowed, vec3 
     return sweeps;
 }
 
-// Returns speeds of the points, less half of what gravity gives in a substep (lib/approach.glsl). An impulse times the mean of the speeds
-// before and after it is the energy that it adds.
-vec4 speedsOf(uint points, SolverPoint p[MANIFOLD_POINTS], vec3 normal, float lag, Touching t) {
-    vec4 speeds = vec4(0.0);
-    [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++)
-        if (k < points) speeds[k] = speedAt(p[k], normal, t) - lag;
-    return speeds;
-}
-
-// `before`, `after`: speeds of the points.
+// An impulse times the mean of the speeds before and after it is the energy that it adds. `before`, `after`: speeds of the points, less
+// half of what gravity gives in a substep (lib/approach.glsl).
 void addNoEnergy(uint points, SolverPoint p[MANIFOLD_POINTS], vec4 before, vec4 after, vec3 normal, inout vec4 total, inout Touching t) {
     if (dot(total, before + after) <= 0.0) return;
     float share = clamp(-2.0 * dot(total, before) / dot(total, after - before), 0.0, 1.0);
@@ -109,11 +111,11 @@ void meetContact(uint c) {
     float lag = 0.5 * gravity.w * approachOf(t.a.inverse_mass > 0.0, t.b.inverse_mass > 0.0, normal.xyz, gravity.xyz);
     SolverPoint p[MANIFOLD_POINTS];
     [[unroll]] for (uint k = 0u; k < MANIFOLD_POINTS; k++) p[k] = solver_contacts[c].points[k];
-    vec4 allowed = closingsAllowed(p, ids.z, normal.xyz, restitution, lag, t), total = vec4(0.0);
+    vec4 speeds = speedsOf(ids.z, p, normal.xyz, t);
+    vec4 allowed = closingsAllowed(ids.z, p, speeds, normal.xyz, restitution, lag, t);
     bool meets = restitution > 0.0 && any(lessThan(allowed, vec4(0.0)));
-    vec4 before = speedsOf(ids.z, p, normal.xyz, lag, t);
-    total = impulsesTogether(c, ids.z, p, allowed, normal.xyz, meets, t);
+    vec4 total = impulsesTogether(c, ids.z, p, speeds, allowed, normal.xyz, meets, t);
     uint sweeps = meets ? meetPoints(ids.z, p, allowed, normal.xyz, total, t) : 0u;
-    if (meets) addNoEnergy(ids.z, p, before, speedsOf(ids.z, p, normal.xyz, lag, t), normal.xyz, total, t);
+    if (meets) addNoEnergy(ids.z, p, speeds - lag, speedsOf(ids.z, p, normal.xyz, t) - lag, normal.xyz, total, t);
     keepImpact(c, ids, normal, total, sweeps, t);
 }

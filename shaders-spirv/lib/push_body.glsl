@@ -4,12 +4,6 @@
 #include "lib/has_turned.glsl"
 #include "lib/solver_body.glsl"
 
-// Arm of a point as it is now.
-vec3 armNow(vec3 arm_a, vec3 arm_b, SolverBody a, SolverBody b, float arms, bool has_turned, bool is_b) {
-    vec3 arm = (is_b ? arm_b : arm_a) + followed(a, b, arms, is_b);
-    return has_turned ? arm + shiftOfArm(arm_a, arm_b, a.turned, b.turned, arms, is_b) : arm;
-}
-
 vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     uvec4 ids = solver_contacts[c].ids;
     vec3 normal = solver_contacts[c].normal.xyz, tangent = solver_contacts[c].tangent.xyz, across = cross(normal, tangent);
@@ -17,15 +11,16 @@ vec3 impulseOf(uint c, bool is_b, out vec3 twist) {
     vec3 slide = rub.x * tangent + rub.y * across, sum = slide;
     SolverBody a = solver_bodies[ids.x], b = solver_bodies[ids.y];
     float arms = solver_contacts[c].rub_mass.w;
+    vec3 slid = followed(a, b, arms, is_b);
     bool has_turned = hasTurned(c, ids.z, a, b);
     vec3 center_a = solver_contacts[c].center_a.xyz, center_b = solver_contacts[c].center_b.xyz;
-    twist = cross(armNow(center_a, center_b, a, b, arms, has_turned, is_b), slide) + rub.z * normal;
+    twist = cross(armNow(center_a, center_b, slid, a.turned, b.turned, arms, has_turned, is_b), slide) + rub.z * normal;
     for (uint k = 0u; k < MANIFOLD_POINTS && k < ids.z; k++) {
         vec4 pulse = solver_contacts[c].points[k].pulse;
         vec3 pressed = (pulse.w >= POINT_HIT ? 0.0 : pulse.x) * normal;
         sum += pressed;
         vec3 arm_a = solver_contacts[c].points[k].arm_a.xyz, arm_b = solver_contacts[c].points[k].arm_b.xyz;
-        twist += cross(armNow(arm_a, arm_b, a, b, arms, has_turned, is_b), pressed);
+        twist += cross(armNow(arm_a, arm_b, slid, a.turned, b.turned, arms, has_turned, is_b), pressed);
     }
     return sum;
 }

@@ -45,12 +45,8 @@ struct Arms {
 };
 
 Arms armsNow(Touching t, vec3 arm_a, vec3 arm_b) {
-    Arms arms = Arms(arm_a + t.slid_a, arm_b + t.slid_b);
-    if (t.has_turned) {
-        arms.a += shiftOfArm(arm_a, arm_b, t.turned_a, t.turned_b, t.arms, false);
-        arms.b += shiftOfArm(arm_a, arm_b, t.turned_a, t.turned_b, t.arms, true);
-    }
-    return arms;
+    return Arms(armNow(arm_a, arm_b, t.slid_a, t.turned_a, t.turned_b, t.arms, t.has_turned, false),
+                armNow(arm_a, arm_b, t.slid_b, t.turned_a, t.turned_b, t.arms, t.has_turned, true));
 }
 
 void pushApart(inout Touching t, vec3 arm_a, vec3 arm_b, vec3 impulse) {

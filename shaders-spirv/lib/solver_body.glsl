@@ -39,6 +39,12 @@ vec3 shiftOfArm(vec3 arm_a, vec3 arm_b, vec4 turned_a, vec4 turned_b, float arms
     return by_b ? shifted(turned_b, arm_b) : shifted(turned_a, arm_a);
 }
 
+// Arm of a point as it is now. `slid`: how far it has followed the other body.
+vec3 armNow(vec3 arm_a, vec3 arm_b, vec3 slid, vec4 turned_a, vec4 turned_b, float arms, bool has_turned, bool of_b) {
+    vec3 arm = (of_b ? arm_b : arm_a) + slid;
+    return has_turned ? arm + shiftOfArm(arm_a, arm_b, turned_a, turned_b, arms, of_b) : arm;
+}
+
 vec3 velocityAt(Moving m, vec3 arm) { return m.velocity + cross(m.spin, arm); }
 
 // How much speed along v an impulse along u at the arm gives.

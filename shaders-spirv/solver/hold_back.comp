@@ -56,7 +56,6 @@ bool isHeldBy(uint other, uint body, float way, float turn) {
 Side sideOf(uint body, uint piece, uint other) {
     SolverBody s = solver_bodies[body];
     Way way = wayOf(s, bodies[body].velocity.xyz, bodies[body].spin.xyz, gravity, thicknessOf(shapes[body]));
-    if (!moves(body)) way = Way(vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0), vec4(0.0, 0.0, 0.0, 1.0), 0.0, 1.0);
     float length_ = length(placeAt(way, way.share)), turn = 2.0 * length(s.turned.xyz);
     return Side(body, hulls[pieces[piece].ids.x], bodies[body].turn, way, moves(body) && isSwift(length_, turn, shapes[body]),
                 isHeldBy(other, body, length_, turn));

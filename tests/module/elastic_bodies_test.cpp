@@ -1,5 +1,6 @@
 // Bodies that lose nothing when they bounce: thin ones at any tilt, and rows that pass a blow on.
 #include "modules/brittle/mesh/vector_math.h"
+#include "tests/support/flight_scene.h"
 #include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
@@ -12,16 +13,9 @@ namespace {
 
 using brittle::BodyDescription, brittle::Double3, brittle::SceneDescription, brittle::ShapeKind;
 using brittle::operator*;
-using support::SceneRun;
+using support::flightScene, support::SceneRun;
 
 constexpr double kApart = 4; // m, more than any of these bodies is long
-
-SceneDescription emptyScene() {
-    SceneDescription scene;
-    scene.gravity = {0, 0, 0};
-    scene.effects = {"contacts", "friction", "restitution"};
-    return scene;
-}
 
 struct Plank {
     const char* name;
@@ -35,7 +29,7 @@ class ElasticBodies : public testing::TestWithParam<Plank> {};
 
 // 0.1 % and 2 % are what a bounce may gain and lose.
 TEST_P(ElasticBodies, KeepTheirEnergyAtAnyTilt) {
-    SceneDescription scene = emptyScene();
+    SceneDescription scene = flightScene();
     std::mt19937 random(1);
     std::normal_distribution<double> any;
     for (uint32_t k = 0; k < 48; ++k) {
@@ -63,12 +57,12 @@ TEST_P(ElasticBodies, KeepTheirEnergyAtAnyTilt) {
 INSTANTIATE_TEST_SUITE_P(, ElasticBodies, testing::ValuesIn(kPlanks),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// A cube flies into a row of cubes that touch, all turned about y by so many degrees. It meets them just when a substep ends:
+// A cube flies into a row of cubes that touch, all turned about y by `degrees`. It meets them just when a substep ends:
 // by rounding some corners of its face meet in that substep and some in the next.
 void expectThatTheLastOneLeaves(double degrees, uint32_t cubes) {
     const double angle = degrees * std::numbers::pi / 180, edge = 0.5, speed = 4;
     const Double3 along = {std::cos(angle), 0, -std::sin(angle)};
-    SceneDescription scene = emptyScene();
+    SceneDescription scene = flightScene();
     for (uint32_t k = 0; k <= cubes; ++k) {
         BodyDescription& cube = scene.bodies.emplace_back();
         cube.shape = {.kind = ShapeKind::Box, .size = {edge, edge, edge}};

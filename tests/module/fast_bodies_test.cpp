@@ -2,6 +2,7 @@
 // is thinner than what they go in a step.
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "tests/support/flight_scene.h"
 #include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 
 using brittle::BodyDescription, brittle::Double3, brittle::SceneDescription, brittle::ShapeDescription, brittle::ShapeKind;
 using brittle::operator-, brittle::operator*;
-using support::SceneRun;
+using support::flightScene, support::SceneRun;
 
 constexpr double kThickness = 0.05; // of walls
 
@@ -41,13 +42,6 @@ private:
     std::mt19937 random_;
 };
 
-SceneDescription emptyScene() {
-    SceneDescription scene;
-    scene.gravity = {0, 0, 0};
-    scene.effects = {"contacts", "friction", "restitution"};
-    return scene;
-}
-
 // From some steps away on its way along x, turned and at times spinning.
 BodyDescription& addShot(SceneDescription& scene, const Shot& shot, double speed, Draw& draw) {
     BodyDescription& body = scene.bodies.emplace_back();
@@ -66,7 +60,7 @@ class FastBodies : public testing::TestWithParam<Shot> {};
 TEST_P(FastBodies, NeverPassAWallAndGainNothing) {
     for (const double speed : {30., 100., 300., 1000.})
         for (uint32_t seed = 0; seed < 2; ++seed) {
-            SceneDescription scene = emptyScene();
+            SceneDescription scene = flightScene();
             Draw draw(seed);
             addShot(scene, GetParam(), speed, draw);
             brittle::ColliderDescription& wall = scene.colliders.emplace_back();
@@ -98,7 +92,7 @@ bool wentThrough(const Double3& before, const Double3& now) {
 TEST_P(FastBodies, NeverPassAPlateThatIsFreeOrComesAtThem) {
     for (const double speed : {30., 100., 300.})
         for (uint32_t seed = 0; seed < 2; ++seed) {
-            SceneDescription scene = emptyScene();
+            SceneDescription scene = flightScene();
             Draw draw(10 + seed);
             addShot(scene, GetParam(), speed, draw);
             BodyDescription& plate = scene.bodies.emplace_back();
@@ -132,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(, FastBodies, testing::ValuesIn(kShots),
 TEST(FastBodiesThatComeInAslant, StopWhereTheyTouch) {
     for (const double speed : {20., 40., 60., 100., 200.})
         for (const uint32_t cells : {0u, 8u}) {
-            SceneDescription scene = emptyScene();
+            SceneDescription scene = flightScene();
             BodyDescription& cube = scene.bodies.emplace_back();
             cube.shape = {.kind = ShapeKind::Box, .size = {0.2, 0.2, 0.2}, .cells = {.sites = cells}};
             cube.place = {-1.98, 0, 2.64};
@@ -151,7 +145,7 @@ TEST(FastBodiesThatComeInAslant, StopWhereTheyTouch) {
 // Their way leads along the wall after the blow, through another one that nothing had led to before.
 TEST(FastBodiesInACorner, StayInIt) {
     for (uint32_t seed = 0; seed < 8; ++seed) {
-        SceneDescription scene = emptyScene();
+        SceneDescription scene = flightScene();
         Draw draw(20 + seed);
         BodyDescription& shot = addShot(scene, kShots[0], 300, draw);
         shot.velocity = {300, 0, 0};
@@ -173,7 +167,7 @@ TEST(FastBodiesInACorner, StayInIt) {
 
 // A plane is endless: bodies stand on it, and slide along it, wherever they are.
 TEST(Planes, BearBodiesAnywhere) {
-    SceneDescription scene = emptyScene();
+    SceneDescription scene = flightScene();
     scene.gravity = {0, -10, 0};
     scene.effects.push_back("gravity");
     const Double3 places[] = {{0, 0.6, 0}, {9e4, 0.6, 3}, {-7e5, 0.6, -4e5}};
@@ -195,7 +189,7 @@ TEST(Planes, BearBodiesAnywhere) {
 }
 
 SceneDescription onAPlane(double gravity) {
-    SceneDescription scene = emptyScene();
+    SceneDescription scene = flightScene();
     scene.gravity = {0, -gravity, 0};
     scene.effects.push_back("gravity");
     scene.colliders.emplace_back();
@@ -235,7 +229,7 @@ TEST(BodiesOfAnySize, SpinOnAsTheyDid) {
     for (const double edge : {1e-2, 1.0, 150.0, 1e4})
         for (const double density : {1e-2, 1e3, 1e5}) {
             if (density * edge * edge * edge > 1e13 || density * edge * edge * edge < 1e-6) continue;
-            SceneDescription scene = emptyScene();
+            SceneDescription scene = flightScene();
             BodyDescription& brick = addCube(scene, edge, {0, 0, 0});
             brick.shape.size[1] *= 0.5;
             brick.density = density;

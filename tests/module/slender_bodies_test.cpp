@@ -1,4 +1,5 @@
 // Bodies that are thin for their length, at blows that turn them within a step by more than they are thick.
+#include "tests/support/flight_scene.h"
 #include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
@@ -6,16 +7,9 @@
 namespace {
 
 using brittle::BodyDescription, brittle::SceneDescription, brittle::ShapeKind;
-using support::SceneRun;
+using support::flightScene, support::SceneRun;
 
 constexpr double kApart = 4; // m, more than any of these bodies is long
-
-SceneDescription emptyScene() {
-    SceneDescription scene;
-    scene.gravity = {0, 0, 0};
-    scene.effects = {"contacts", "friction", "restitution"};
-    return scene;
-}
 
 BodyDescription& addRodOfCells(SceneDescription& scene, double speed, double from, double spin) {
     BodyDescription& rod = scene.bodies.emplace_back();
@@ -42,7 +36,7 @@ void expectNothingIsGained(SceneRun& run, uint32_t steps) {
 // All cells of a rod hit at once. The later in a step, the further has the rod turned by then.
 TEST(SlenderBodies, OfCellsThatTurnGainNothingAtAWall) {
     for (const double friction : {0., 0.6}) {
-        SceneDescription scene = emptyScene();
+        SceneDescription scene = flightScene();
         for (const double speed : {4., 10., 20., 30., 100.})
             for (const double spin : {2., 5., -7.})
                 for (uint32_t phase = 0; phase < 4; ++phase)

@@ -117,10 +117,9 @@ Result<void> prepare(const fs::path& folder, accuracy::ResultFiles& files) {
 }
 
 Result<void> listCases(const std::string& only) {
-    std::vector<std::string> names = hard::hardCaseNames();
-    std::erase_if(names, [&](const std::string& name) { return name.find(only) == std::string::npos; });
-    if (names.empty()) return hard::noCaseNamed(only);
-    for (const std::string& name : names)
+    const auto names = hard::hardCaseNames(only);
+    if (!names) return names.error();
+    for (const std::string& name : *names)
         std::printf("%s\n", name.c_str());
     return {};
 }

@@ -137,6 +137,12 @@ void addScaled(std::vector<Job>& jobs, engine::Device& device, const RunOptions&
         if (options.is_long || !one.is_long) addScaledScene(jobs, one, device, options);
 }
 
+bool hasIn(const std::string& name, const std::string& only) { return name.find(only) != std::string::npos; }
+
+engine::Error noCaseNamed(const std::string& only) {
+    return {engine::ErrorCode::BadInput, "no hard case has \"" + only + "\" in its name; brittle hard --list names them all"};
+}
+
 Result<std::vector<Job>> jobsOf(engine::Device& device, const RunOptions& options) {
     std::vector<Job> jobs;
     if (options.scale) {
@@ -147,7 +153,7 @@ Result<std::vector<Job>> jobsOf(engine::Device& device, const RunOptions& option
         addFractures(jobs, std::shared_ptr<brittle::Fracture>(std::move(*made)));
         addOthers(jobs, options);
     }
-    std::erase_if(jobs, [&](const Job& job) { return job.name.find(options.only) == std::string::npos; });
+    std::erase_if(jobs, [&](const Job& job) { return !hasIn(job.name, options.only); });
     if (jobs.empty()) return noCaseNamed(options.only);
     return jobs;
 }
@@ -185,20 +191,20 @@ Result<std::vector<HardCase>> runHardCases(engine::Device& device, const RunOpti
     return outcomes;
 }
 
-engine::Error noCaseNamed(const std::string& only) {
-    return {engine::ErrorCode::BadInput, "no hard case has \"" + only + "\" in its name; brittle hard --list names them all"};
-}
-
-std::vector<std::string> hardCaseNames() {
+Result<std::vector<std::string>> hardCaseNames(const std::string& only) {
     std::vector<std::string> names;
+    const auto add = [&](const std::string& name, bool is_long) {
+        if (hasIn(name, only)) names.push_back(is_long ? name + " (long)" : name);
+    };
     for (const FractureCase& one : fractureCases())
-        names.push_back(one.name);
+        add(one.name, false);
     for (const MeshCase& one : meshCases())
-        names.emplace_back(one.name);
+        add(one.name, false);
     for (const PoolCase& one : poolCases())
-        names.emplace_back(one.name);
+        add(one.name, false);
     for (const SceneCase& one : sceneCases())
-        names.emplace_back(one.is_long ? std::string(one.name) + " (long)" : one.name);
+        add(one.name, one.is_long);
+    if (names.empty()) return noCaseNamed(only);
     return names;
 }
 

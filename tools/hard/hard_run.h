@@ -39,10 +39,8 @@ struct RunWatch {
 engine::Result<std::vector<accuracy::HardCase>> runHardCases(engine::Device& device, const RunOptions& options,
                                                              const RunWatch& watch);
 
-// Of all cases, in order; those that --long adds say so.
-std::vector<std::string> hardCaseNames();
-
-// The error where no case has `only` in its name: BadInput.
-engine::Error noCaseNamed(const std::string& only);
+// Returns the names that have `only` in them, in order; those of cases that --long adds say so. Errors: BadInput, where no case
+// has such a name.
+engine::Result<std::vector<std::string>> hardCaseNames(const std::string& only);
 
 } // namespace hard
