@@ -16,7 +16,7 @@
 #endif
 #define MAX_NODES (2 * MAX_SEGMENTS)
 #define TURNS (MAX_NODES / LANES)
-#define MAX_LOOPS 256
+#define MAX_LOOPS (MAX_SEGMENTS / 3 + 1)
 layout(local_size_x = LANES) in;
 UPDATES(0, uint, counts);
 READS(1, ivec4, sites);

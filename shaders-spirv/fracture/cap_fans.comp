@@ -21,6 +21,9 @@ READS(11, uint, wide_faces);
 WRITES(12, uint, large_faces);
 WRITES(13, uint, huge_faces);
 WRITES(14, uint, cap_slots);
+#include "lib/vast_face.glsl"
+WRITES(15, VastFace, vast_faces);
+#include "lib/vast_list.glsl"
 #include "lib/cap_plane.glsl"
 #include "lib/fan.glsl"
 
@@ -90,6 +93,10 @@ void saveFan(uint lane, uint corner) {
 }
 
 void passOn(uint index, uint size) {
+    if (size > HUGE_FACE) {
+        listVast(index, size);
+        return;
+    }
     cap_slots[index] = counts[COUNT_SEGMENTS] + atomicAdd(counts[COUNT_NODES], 2u * size); // whoever comes first
     if (size <= LARGE_FACE) large_faces[atomicAdd(counts[COUNT_LARGE_FACES], 1u)] = index;
     else huge_faces[atomicAdd(counts[COUNT_HUGE_FACES], 1u)] = index;

@@ -15,6 +15,9 @@ WRITES(6, uint, loose_caps);
 WRITES(7, uint, cap_counts);
 READS(8, uint, wide_faces);
 WRITES(9, uint, cap_slots);
+#include "lib/vast_face.glsl"
+WRITES(10, VastFace, vast_faces);
+#include "lib/vast_list.glsl"
 #include "lib/fan.glsl"
 
 shared uint doubtful;
@@ -73,6 +76,6 @@ void main() {
     if (lane == 0u && !idle) {
         cap_counts[index] = made;
         cap_slots[index] = first;
-        if (size > HUGE_FACE) atomicAdd(counts[STATUS_BAD_CAP], 1u);
+        if (size > HUGE_FACE) listVast(index, size);
     }
 }

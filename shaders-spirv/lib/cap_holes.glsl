@@ -59,13 +59,6 @@ void hitEdge(uint lane, uint m, uint hole, bool tops_too) {
     reduceLowest(lane, key, pick);
 }
 
-bool inCone(ivec2 before, ivec2 c, ivec2 after, ivec2 x) {
-    bool convex = turn(before, c, after) >= 0;
-    ivec2 first = convex ? before : after, second = convex ? after : before;
-    bool between = turn(c, x, first) >= 0 && turn(c, second, x) >= 0;
-    return convex ? between : !between;
-}
-
 // Whether corner a leaves the ray to the right from p less than corner b does; of those in one line, or where there is no ray
 // to follow (`lost`), the nearer.
 bool closerToRay(uint a, uint b, ivec2 p, bool lost) {

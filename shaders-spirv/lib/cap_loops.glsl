@@ -32,18 +32,6 @@ void sync() {
     barrier();
 }
 
-// Which of two ways out turns further left, looking back along the way in: 0 right of back ... 3 back itself.
-int sectorOf(ivec2 back, ivec2 d) {
-    int64_t cross_ = int64_t(back.x) * int64_t(d.y) - int64_t(back.y) * int64_t(d.x);
-    int64_t dot_ = int64_t(back.x) * int64_t(d.x) + int64_t(back.y) * int64_t(d.y);
-    return isNegative(cross_) ? 0 : (signOf(cross_) > 0 ? 2 : (isNegative(dot_) ? 1 : 3));
-}
-
-bool furtherLeft(ivec2 back, ivec2 a, ivec2 b) {
-    int sa = sectorOf(back, a), sb = sectorOf(back, b);
-    return sa != sb ? sa < sb : isNegative(int64_t(a.x) * int64_t(b.y) - int64_t(a.y) * int64_t(b.x));
-}
-
 void loadEdges(uint lane, uint first, uint n) {
     for (uint k = lane; k < n; k += LANES) {
         uvec4 s = segments[first + k];

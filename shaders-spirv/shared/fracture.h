@@ -84,7 +84,11 @@
 #define COUNT_EVENT 57    /* 1 where the device has found something that breaks */
 #define COUNT_CLEARING 58 /* workgroups that clear tables then */
 #define CLEARING_GROUPS 64u
-#define COUNT_TOTAL 59
+#define COUNT_VAST_FACES 59
+#define COUNT_VAST_SIDES 60  /* of all vast faces */
+#define COUNT_VAST_HALVES 61 /* of their sides and diagonals: VAST_HALVES a side */
+#define COUNT_VAST_SPANS 62
+#define COUNT_TOTAL 63
 
 // Words after the counts: what went wrong and how much was asked for. STATUS_FAILED != 0 makes every later kernel idle.
 #define STATUS_FAILED COUNT_TOTAL
@@ -148,10 +152,13 @@
 #define USUAL_SIDES 24
 #define MOST_SIDES 1024
 
-// Segments of a cap: up to these a face is one lane's, a small workgroup's, a large one's.
+// Segments of a cap: up to these a face is one lane's, a small workgroup's, a large one's. What has more is a vast face, on which
+// all workgroups work together. A side of it has five half-edges: its own, and both halves of two diagonals from its corner.
 #define SMALL_FACE 24
 #define LARGE_FACE 256
 #define HUGE_FACE 2048
+#define VAST_HALVES 5
+#define VAST_ROUNDS 12 /* in which all workgroups cut ears, before a lane finishes each part */
 #define POINT_FRACTION_BITS 24
 #define INNER_BIT 0x80000000u /* of a triangle's source: a cap, not a mesh triangle */
 #define FLAP_BIT 0x40000000u  /* dropped as one side of a flap */

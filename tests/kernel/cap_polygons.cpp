@@ -1,5 +1,8 @@
 #include "tests/kernel/cap_polygons.h"
 
+#include "modules/brittle/fracture/event.h"
+
+#include <deque>
 #include <map>
 #include <numeric>
 #include <random>
@@ -40,6 +43,8 @@ CapBuffers buffersOf(const std::vector<CapPolygon>& polygons, const CapBasis& ba
     return all;
 }
 
+using Triangles = std::vector<Grid3>;
+
 // As list_caps reads them: the first so many slots of a face that are filled, without triangles that name a corner twice.
 std::vector<Grid3> trianglesOf(const CapBuffers& all, size_t f, uint32_t count, const std::vector<Grid3>& slots, size_t first,
                                uint32_t& collapsed) {
@@ -57,6 +62,77 @@ std::vector<Grid3> trianglesOf(const CapBuffers& all, size_t f, uint32_t count, 
     collapsed += static_cast<uint32_t>(std::erase_if(triangles, isCollapsed));
     return triangles;
 }
+
+// Views of the buffers that recordVastCaps reads and writes, with room for all sides.
+class VastBuffers {
+public:
+    VastBuffers(uint32_t faces, uint32_t sides) {
+        capacity.vast_sides = sides;
+        capacity.vast_spans = 16 * sides;
+        const size_t n = sides, halves = VAST_HALVES * n, tree = 2 * capacity.vastLeaves(), digits = (n / 64 + 1) * 16;
+        take(views.vast_faces, 4ull * faces);
+        for (engine::BufferView* quads : {&views.vast_ends, &views.vast_chords, &views.vast_rings, &views.vast_diagonals})
+            take(*quads, 4 * n);
+        take(views.vast_listed, 4 * n);
+        for (engine::BufferView* words :
+             {&views.vast_keys, &views.vast_values, &views.vast_other_keys, &views.vast_other_values, &views.vast_heads})
+            take(*words, n);
+        for (engine::BufferView* words : {&views.vast_histogram, &views.vast_digit_offsets})
+            take(*words, digits + 1);
+        for (engine::BufferView* words : {&views.vast_span_counts, &views.vast_span_offsets})
+            take(*words, tree + 1);
+        take(views.vast_spans, capacity.vast_spans);
+        for (engine::BufferView* words : {&views.vast_links, &views.vast_marks, &views.vast_flags})
+            take(*words, halves);
+        for (engine::BufferView* pairs : {&views.vast_halves, &views.vast_labels, &views.vast_other_labels})
+            take(*pairs, 2 * halves);
+        take(views.vast_offsets, halves + 1);
+        take(views.vast_caps, 3 * halves);
+        take(views.sums, 4 * ((halves + tree + digits) / SCAN_BLOCK + 2));
+    }
+
+    // Every polygon as a vast face, whatever its size.
+    void list(const CapBuffers& all, Counts& counts) {
+        std::vector<Word4> faces;
+        for (uint32_t f = 0; f < all.faces(); ++f)
+            faces.push_back({f, all.offsets[f], all.offsets[f + 1] - all.offsets[f], 0});
+        std::memcpy(buffers_.front().mapped(), faces.data(), sizeof(Word4) * faces.size());
+        counts[COUNT_VAST_FACES] = counts[STATUS_BAD_CAP] = static_cast<uint32_t>(faces.size());
+        counts[COUNT_VAST_SIDES] = all.offsets.back();
+    }
+
+    // The triangles of every face, which lie where the offsets step up.
+    std::vector<Triangles> triangles(const CapBuffers& all, Counts& counts) const {
+        std::vector<Triangles> found(all.faces());
+        const Word4* faces = buffers_.front().mappedAs<Word4>();
+        const uint32_t* offsets = mapped(views.vast_offsets);
+        const uint32_t* caps = mapped(views.vast_caps);
+        for (uint32_t j = 0; j < counts[COUNT_VAST_FACES]; ++j) {
+            const auto& [face, first, count, unused] = faces[j];
+            for (uint32_t h = VAST_HALVES * first; h < VAST_HALVES * (first + count); ++h)
+                if (offsets[h + 1] != offsets[h]) found[face].push_back(triangleAt(caps + 3 * h, all.first_point[face]));
+        }
+        return found;
+    }
+
+    brittle::Capacities capacity;
+    brittle::EventBuffers views;
+
+private:
+    void take(engine::BufferView& view, size_t words) {
+        buffers_.push_back(blankBuffer<uint32_t>(std::max<size_t>(words, 4)));
+        view = buffers_.back();
+    }
+    static const uint32_t* mapped(const engine::BufferView& view) { return view.buffer->mappedAs<uint32_t>(); }
+    static Grid3 triangleAt(const uint32_t* corners, uint32_t first_point) {
+        Grid3 triangle;
+        for (size_t k = 0; k < 3; ++k)
+            triangle[k] = static_cast<int32_t>(corners[k]) - static_cast<int32_t>(first_point);
+        return triangle;
+    }
+
+    std::deque<engine::Buffer> buffers_; // views point to them
+};
 
 int64_t doubleArea(const CapPoint& a, const CapPoint& b, const CapPoint& c) {
     return int64_t{b[0] - a[0]} * (c[1] - a[1]) - int64_t{b[1] - a[1]} * (c[0] - a[0]);
@@ -127,6 +203,12 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
     const engine::Buffer shared_points = bufferOf(std::vector<uint32_t>(all.points.size()));
     const engine::Buffer nodes = blankBuffer<Word4>(slots), rings = blankBuffer<Word4>(slots),
                          loops = blankBuffer<Word4>(slots);
+    VastBuffers vast(n, all.offsets.back());
+    if (through == Through::Vast) vast.list(all, counts);
+    brittle::EventBuffers& views = vast.views;
+    views.sites = sites, views.faces = faces, views.neighbors = neighbors, views.face_cells = cells;
+    views.face_offsets = offsets, views.segments = segments, views.welded = welded, views.points = points;
+    views.cap_counts = cap_counts;
     const auto run = [&](engine::Commands& commands, const char* name, uint32_t count, const engine::Buffer& list) {
         counts.publish(commands, count, n);
         commands.dispatchIndirect(kernel(name), counts.groupsOf(count), engine::NoPush{},
@@ -138,10 +220,9 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
             commands.dispatch(kernel("cap_faces_convex"), n, engine::NoPush{},
                               {counts.words, faces, offsets, segments, welded, loose, cap_counts, wide, cap_slots});
             counts.publish(commands, COUNT_WIDE_FACES, n);
-            commands.dispatchIndirect(
-                kernel("cap_fans_convex"), counts.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
-                {counts.words, faces, offsets, segments, welded, shared_points, loose, cap_counts, wide, cap_slots});
-            return;
+            commands.dispatchIndirect(kernel("cap_fans_convex"), counts.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
+                                      {counts.words, faces, offsets, segments, welded, shared_points, loose, cap_counts, wide,
+                                       cap_slots, views.vast_faces});
         }
         if (through == Through::AllInTurn) {
             commands.dispatch(kernel("cap_faces"), n, engine::NoPush{},
@@ -151,8 +232,16 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
             // No vertices of a mesh: as if all corners were on Voronoi edges.
             commands.dispatchIndirect(kernel("cap_fans"), counts.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
                                       {counts.words, sites, faces, neighbors, cells, offsets, segments, welded, points, loose,
-                                       cap_counts, wide, large, huge, cap_slots});
+                                       cap_counts, wide, large, huge, cap_slots, views.vast_faces});
         }
+        if (through == Through::AllInTurn || through == Through::Vast || through == Through::Convex) {
+            brittle::Recorder recorder(commands, kernels(), counts.words, counts.args);
+            const brittle::EventGrid grid;
+            brittle::recordVastCaps({.grid = grid, .capacity = vast.capacity, .b = views, .scene = {}, .record = recorder});
+            const auto recorded = recorder.status();
+            ASSERT_TRUE(recorded) << recorded.error().message;
+        }
+        if (through == Through::Vast || through == Through::Convex) return;
         if (through != Through::Huge) run(commands, "cap_faces_large", COUNT_LARGE_FACES, large);
         if (through != Through::Large) run(commands, "cap_faces_huge", COUNT_HUGE_FACES, huge);
     });
@@ -160,13 +249,19 @@ CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basi
                   counts[COUNT_WIDE_FACES],
                   counts[COUNT_LARGE_FACES],
                   counts[COUNT_HUGE_FACES],
+                  counts[COUNT_VAST_FACES],
                   counts[STATUS_BAD_CAP],
                   counts[STATUS_TURNED_OVER],
                   0};
     const std::vector<uint32_t> made = valuesOf<uint32_t>(cap_counts, n);
     const std::vector<Grid3> filled = valuesOf<Grid3>(loose, all.segments.size() + slots);
+    std::vector<Triangles> of_vast = vast.triangles(all, counts);
     for (size_t f = 0; f < n; ++f)
-        result.triangles.push_back(trianglesOf(all, f, made[f], filled, cap_slots.mappedAs<uint32_t>()[f], result.collapsed));
+        if (of_vast[f].empty())
+            result.triangles.push_back(
+                trianglesOf(all, f, made[f], filled, cap_slots.mappedAs<uint32_t>()[f], result.collapsed));
+        else
+            result.triangles.push_back(std::move(of_vast[f]));
     return result;
 }
 

@@ -33,11 +33,11 @@ struct CapBasis {
 };
 extern const std::vector<CapBasis> kCapBases;
 
-enum class Through { AllInTurn, Large, Huge, Convex };
+enum class Through { AllInTurn, Large, Huge, Vast, Convex };
 
 struct CapRun {
-    std::vector<std::vector<Grid3>> triangles; // of each polygon: three of its points
-    uint32_t wide = 0, large = 0, huge = 0;    // faces passed on: to cap_fans, and from there
+    std::vector<std::vector<Grid3>> triangles;        // of each polygon: three of its points
+    uint32_t wide = 0, large = 0, huge = 0, vast = 0; // faces passed on: to cap_fans, and from there
     uint32_t bad = 0, turned_over = 0, collapsed = 0;
 };
 CapRun capOnDevice(const std::vector<CapPolygon>& polygons, const CapBasis& basis, Through through);

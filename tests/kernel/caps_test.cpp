@@ -16,8 +16,8 @@ void expectCapped(const std::vector<CapPolygon>& polygons, const CapBasis& basis
     for (size_t f = 0; f < polygons.size(); ++f)
         expectTriangulated(polygons[f], in_turn.triangles[f]);
     EXPECT_EQ(in_turn.bad, 0u);
-    for (const Through kernel : {Through::Large, Through::Huge}) {
-        if (longest > (kernel == Through::Large ? LARGE_FACE : HUGE_FACE)) continue;
+    for (const Through kernel : {Through::Large, Through::Huge, Through::Vast}) {
+        if (kernel != Through::Vast && longest > (kernel == Through::Large ? LARGE_FACE : HUGE_FACE)) continue;
         const CapRun run = capOnDevice(polygons, basis, kernel);
         for (size_t f = 0; f < polygons.size(); ++f)
             expectTriangulated(polygons[f], run.triangles[f]);
@@ -259,11 +259,46 @@ TEST(Caps, OfThreeHundredSides) {
 
 TEST(Caps, OfTheMostSidesThatAreTaken) { expectCapped({ringOf(HUGE_FACE, 2'000'000)}); }
 
-TEST(Caps, OfMoreSidesAreCounted) {
-    const CapRun run = capOnDevice({ringOf(HUGE_FACE + 1, 2'000'000), ringOf(3)}, kCapBases[0], Through::AllInTurn);
-    EXPECT_EQ(run.bad, 1u);
-    EXPECT_TRUE(run.triangles[0].empty());
-    EXPECT_EQ(run.triangles[1].size(), 1u);
+TEST(Caps, MayHaveMoreSidesThanAWorkgroupHolds) {
+    std::mt19937 random(5);
+    const std::vector<CapPolygon> polygons = {ringOf(HUGE_FACE + 1, 2'000'000), ringOf(3), starOf(5'000, random), combOf(2'500),
+                                              starOf(2'100, random)};
+    const CapRun run = capOnDevice(polygons, kCapBases[0], Through::AllInTurn);
+    for (size_t f = 0; f < polygons.size(); ++f)
+        expectTriangulated(polygons[f], run.triangles[f]);
+    EXPECT_EQ(run.vast, 4u);
+    EXPECT_EQ(run.bad + run.turned_over, 0u);
+}
+
+// Holes in rows that lie level, each with an island inside.
+TEST(Caps, MayHaveMoreHolesThanAWorkgroupHolds) {
+    std::vector<CapLoop> loops = {squareAt(0, 0, 100'000)};
+    for (int32_t k = 0; k < 900; ++k) {
+        const int32_t x = 6'000 * (k % 30) - 87'000, y = 6'000 * (k / 30) - 87'000 + k % 3;
+        loops.push_back(reversed(squareAt(x, y, 2'000 + k % 7)));
+        loops.push_back(squareAt(x + k % 5, y, 1'000));
+    }
+    CapPolygon polygon = polygonOf(loops);
+    polygon.may_be_flat = true;
+    const CapRun run = capOnDevice({polygon}, kCapBases[0], Through::AllInTurn);
+    expectTriangulated(polygon, run.triangles[0]);
+    EXPECT_EQ(run.vast, 1u);
+    EXPECT_EQ(run.bad + run.turned_over, 0u);
+}
+
+// Lanes may take 65,535 loop turns on lavapipe, so no lane may look at all sides.
+TEST(Caps, MayHaveAHundredThousandSides) {
+    std::mt19937 random(9);
+    CapLoop loop;
+    for (uint32_t k = 0; k < 100'000; ++k) {
+        const double angle = 2 * std::numbers::pi * k / 100'000;
+        const double radius = 8e6 * (1 + 0.2 * std::sin(40 * angle)) + 800 * static_cast<double>(random() % 100);
+        loop.push_back({static_cast<int32_t>(radius * std::cos(angle)), static_cast<int32_t>(radius * std::sin(angle))});
+    }
+    const CapPolygon polygon = polygonOf({loop});
+    const CapRun run = capOnDevice({polygon}, kCapBases[0], Through::Vast);
+    expectTriangulated(polygon, run.triangles[0]);
+    EXPECT_EQ(run.bad + run.turned_over, 0u);
 }
 
 // A ray to the right from the corner of one hole runs along the side of the next. Whatever order the sides come in.

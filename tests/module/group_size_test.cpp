@@ -2,6 +2,7 @@
 #include "modules/brittle/export/glb.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/whole_fracture.h"
+#include "tests/support/rough_block.h"
 
 #include <gtest/gtest.h>
 
@@ -44,14 +45,17 @@ Broken broken(uint32_t group_size, const whole::Model& model, const FractureOpti
     return {*bytes, result->counts.exact_redone};
 }
 
-uint32_t expectTheSameForEverySize(const std::string& name, const FractureOptions& options) {
-    SCOPED_TRACE(name);
-    const whole::Model model = whole::modelFrom(name);
+uint32_t expectTheSameForEverySize(const whole::Model& model, const FractureOptions& options) {
     const Broken usual = broken(64, model, options);
     EXPECT_FALSE(usual.bytes.empty());
     for (const uint32_t size : {8u, 32u, 128u})
         EXPECT_TRUE(broken(size, model, options).bytes == usual.bytes) << "workgroups of " << size << " lanes";
     return usual.done_exactly;
+}
+
+uint32_t expectTheSameForEverySize(const std::string& name, const FractureOptions& options) {
+    SCOPED_TRACE(name);
+    return expectTheSameForEverySize(whole::modelFrom(name), options);
 }
 
 FractureOptions sites(uint32_t count) {
@@ -68,6 +72,12 @@ FractureOptions lattice() {
             for (double z : {-.375, -.125, .125, .375})
                 options.given_sites.push_back(Double3{x, y, z});
     return options;
+}
+
+TEST(GroupSize, DoesNotShowInFacesOfThousandsOfSides) {
+    FractureOptions options;
+    options.given_sites = {{0.5, 0.302, 0.5}, {0.5, 0.317, 0.5}, {0.2, 0.1, 0.7}};
+    expectTheSameForEverySize(whole::modelFrom(support::roughBlock(60)), options);
 }
 
 TEST(GroupSize, DoesNotShowInFragments) {

@@ -125,12 +125,18 @@ TEST(Repair, OfDoubledTrianglesOneStays) {
     }
 }
 
+// The same diagonal on both sides: the one cube is the other in a mirror. One face is turned over, or nothing would be mended.
 TEST(Repair, ADoubledWallBetweenSolidsGoes) {
-    // The same diagonal on both sides: the one cube is the other in a mirror.
     ImportedMesh mirrored = turnedOver(makeCube());
     for (Double3& p : mirrored.positions)
         p[0] = 1 - p[0];
-    const RepairedMesh repaired = mended(makeCube() + mirrored);
+    ImportedMesh both = makeCube() + mirrored;
+    const auto at_the_back = [&](const Index3& t) {
+        return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return both.positions[v][0] < 0; });
+    };
+    Index3& turned = *std::find_if(both.triangles.begin(), both.triangles.end(), at_the_back);
+    std::swap(turned[0], turned[1]);
+    const RepairedMesh repaired = mended(both);
     EXPECT_EQ(repaired.notes.dropped_doubles.size(), 4u);
     EXPECT_EQ(repaired.model.mesh.triangles.size(), 20u);
     EXPECT_NEAR(volumeOf(repaired), 2, 1e-6);

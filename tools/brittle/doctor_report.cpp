@@ -114,6 +114,7 @@ nlohmann::ordered_json reportJson(const brittle::MeshReport& report) {
           {"nonmanifold", report.nonmanifold_edges},
           {"shared", report.shared_edges}}},
         {"duplicate_triangles", report.duplicate_triangles},
+        {"touching_triangles", report.touching_triangles},
         {"flat_triangles", report.flat_triangles},
         {"misplaced_components", report.misplaced_components},
         {"crossing_pairs", report.self_intersection.crossing_pairs},

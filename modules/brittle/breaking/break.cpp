@@ -20,6 +20,13 @@ Amounts mostOf(const BreakingRoom& room) {
             std::max(5.0, 2 * std::sqrt(static_cast<double>(room.most_sites)))};
 }
 
+// A cut through a smooth surface of n triangles has about 2.5 sqrt(n) sides. Faces of more than HUGE_FACE sides need rough
+// surfaces of many triangles; worlds without such bodies do not pay for the kernels.
+uint32_t vastSidesOf(uint32_t triangles) {
+    constexpr uint32_t kFewTriangles = 50'000;
+    return triangles < kFewTriangles ? 0 : std::max(2u * HUGE_FACE, static_cast<uint32_t>(16 * std::sqrt(triangles)));
+}
+
 // The mesh is the event's; what is only needed to make it shares memory with the stages that come later.
 void shareMesh(const EventBuffers& b, GatherBuffers& gather) {
     gather.mesh_positions = b.mesh_positions;
@@ -40,6 +47,8 @@ Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_direction
     // fewer.
     c.exact_medium = std::min(c.exact_medium, std::max(64u, room.sites / 2));
     c.exact_large = 0;
+    c.vast_sides = vastSidesOf(room.mesh.triangles);
+    c.vast_spans = 8 * c.vast_sides;
     // What does not fit stays whole, so there is no need for as many as a broken mesh of any kind may have.
     c.components = c.fragments = 4 * room.sites + 1024;
     c.rare = {.exact_cells = true,

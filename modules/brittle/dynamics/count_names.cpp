@@ -91,7 +91,11 @@ constexpr CountName kFracture[] = {{COUNT_SITES, "sites"},
                                    {COUNT_ASKED_SITES, "sites asked for"},
                                    {COUNT_BINS, "bins"},
                                    {COUNT_EVENT, "once, where something breaks"},
-                                   {COUNT_CLEARING, "groups that clear, where something breaks"}};
+                                   {COUNT_CLEARING, "groups that clear, where something breaks"},
+                                   {COUNT_VAST_FACES, "vast faces"},
+                                   {COUNT_VAST_SIDES, "sides of vast faces"},
+                                   {COUNT_VAST_HALVES, "half-edges of vast faces"},
+                                   {COUNT_VAST_SPANS, "heights of vast faces"}};
 static_assert(std::size(kFracture) == COUNT_TOTAL);
 
 std::string nameIn(std::span<const CountName> names, uint64_t count) {

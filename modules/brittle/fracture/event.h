@@ -64,6 +64,8 @@ void recordClipping(const Event& e);
 void recordPlaces(const Event& e);
 void recordDepth(const Event& e);
 void recordCaps(const Event& e);
+// The caps of faces that cap_fans has listed as vast: a stage of recordCaps. Wants room for them.
+void recordVastCaps(const Event& e);
 // split_islands, mass_properties, allocate, emit
 void recordIslands(const Event& e);
 void recordMassProperties(const Event& e);

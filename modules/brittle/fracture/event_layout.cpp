@@ -37,8 +37,9 @@ struct Input {
 void takeKept(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     EventBuffers& b = in.b;
-    uint64_t longest = std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins},
-                                 uint64_t{c.voronoi_edges}, uint64_t{c.island_pairs}});
+    uint64_t longest =
+        std::max({uint64_t{c.pieces}, uint64_t{c.edges}, uint64_t{c.neighbors}, uint64_t{c.bins}, uint64_t{c.voronoi_edges},
+                  uint64_t{c.island_pairs}, uint64_t{VAST_HALVES} * c.vast_sides, uint64_t{c.vast_sides} * 4});
     uint64_t points = c.points();
     b.counts = take.words(STATUS_WORDS);
     b.args = take.words(9ull * COUNT_TOTAL);
@@ -63,6 +64,10 @@ void takeKept(const Input& in, Taker& take) {
     b.loose_caps = take.words(3 * (uint64_t{c.segments} + c.nodes));
     b.cap_slots = take.words(c.neighbors);
     b.cap_offsets = take.words(c.neighbors + 1ull);
+    b.vast_faces = take.quads(c.vastFaces());
+    b.vast_ends = take.quads(c.vast_sides);
+    b.vast_offsets = take.words(uint64_t{VAST_HALVES} * c.vast_sides + 1);
+    b.vast_caps = take.words(3ull * VAST_HALVES * c.vast_sides);
     if (c.collider_directions != 0) b.corners = take.quads(c.corners); // colliders start from them
 }
 
@@ -189,6 +194,26 @@ void takeCaps(const Input& in, Taker& take) {
     b.nodes = take.quads(c.nodes);
     b.rings = take.quads(c.nodes);
     b.loops = take.quads(c.nodes);
+    const uint64_t sides = c.vast_sides, halves = VAST_HALVES * sides;
+    b.vast_chords = take.quads(sides);
+    b.vast_rings = take.quads(sides);
+    for (engine::BufferView* list : {&b.vast_keys, &b.vast_values, &b.vast_other_keys, &b.vast_other_values})
+        *list = take.words(sides);
+    const uint64_t digits = (sides / RADIX_TILE + 1) << RADIX_BITS, tree = sides != 0 ? 2 * c.vastLeaves() : 0;
+    b.vast_listed = take.quads(sides);
+    b.vast_histogram = take.words(digits);
+    b.vast_digit_offsets = take.words(digits + 1);
+    b.vast_span_counts = take.words(tree);
+    b.vast_span_offsets = take.words(tree + 1);
+    b.vast_spans = take.words(c.vast_spans);
+    b.vast_diagonals = take.words(4 * sides);
+    b.vast_heads = take.words(sides);
+    b.vast_links = take.words(halves);
+    b.vast_halves = take.words(2 * halves);
+    b.vast_marks = take.words(halves);
+    b.vast_labels = take.words(2 * halves);
+    b.vast_other_labels = take.words(2 * halves);
+    b.vast_flags = take.words(halves);
 }
 
 // Triangles, islands and fragments: nothing of the diagram is read any more.

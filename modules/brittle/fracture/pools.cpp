@@ -56,6 +56,7 @@ uint32_t Capacities::siteTable() const { return tableSize(sites); }
 uint32_t Capacities::pairTable() const { return tableSize(pairs); }
 uint32_t Capacities::pointTable() const { return tableSize(points()); }
 uint32_t Capacities::flapTable() const { return rare.flaps ? tableSize(flap_sides) : 1; }
+uint32_t Capacities::vastLeaves() const { return std::bit_ceil(std::max(vast_sides, 1u)); }
 uint32_t Capacities::edgeTable() const { return tableSize(uint64_t{3} * pieces / 2); }
 
 Capacities usualCapacities(const Amounts& of) {
@@ -139,13 +140,13 @@ Capacities forCellsOnly(Capacities c) {
 
 void Capacities::add(const Capacities& other) {
     for (uint32_t Capacities::*pool :
-         {&Capacities::sites,         &Capacities::vertices,   &Capacities::edges,     &Capacities::triangles,
-          &Capacities::bins,          &Capacities::neighbors,  &Capacities::corners,   &Capacities::voronoi_vertices,
-          &Capacities::voronoi_edges, &Capacities::crossings,  &Capacities::pairs,     &Capacities::polygons,
-          &Capacities::sides,         &Capacities::triples,    &Capacities::fans,      &Capacities::intervals,
-          &Capacities::segments,      &Capacities::nodes,      &Capacities::caps,      &Capacities::flap_sides,
-          &Capacities::pieces,        &Capacities::components, &Capacities::fragments, &Capacities::emitted,
-          &Capacities::exact_medium,  &Capacities::exact_large})
+         {&Capacities::sites,         &Capacities::vertices,    &Capacities::edges,      &Capacities::triangles,
+          &Capacities::bins,          &Capacities::neighbors,   &Capacities::corners,    &Capacities::voronoi_vertices,
+          &Capacities::voronoi_edges, &Capacities::crossings,   &Capacities::pairs,      &Capacities::polygons,
+          &Capacities::sides,         &Capacities::triples,     &Capacities::fans,       &Capacities::intervals,
+          &Capacities::segments,      &Capacities::nodes,       &Capacities::caps,       &Capacities::flap_sides,
+          &Capacities::pieces,        &Capacities::components,  &Capacities::fragments,  &Capacities::emitted,
+          &Capacities::exact_medium,  &Capacities::exact_large, &Capacities::vast_sides, &Capacities::vast_spans})
         this->*pool += other.*pool;
     clip_rounds = std::max(clip_rounds, other.clip_rounds);
     rare = rare.joined(other.rare);
@@ -164,6 +165,11 @@ bool Capacities::grow(const uint32_t* status) {
     more |= takeUp(rare.films, status[COUNT_FILMS] != 0);
     more |= takeUp(rare.cavities, status[COUNT_CAVITIES] != 0);
     more |= takeUp(rare.partings, status[COUNT_PARTINGS] != 0);
+    if (status[COUNT_VAST_SIDES] > vast_sides) {
+        vast_sides = status[COUNT_VAST_SIDES] + status[COUNT_VAST_SIDES] / 4;
+        vast_spans = std::max(vast_spans, 8 * vast_sides);
+        more = true;
+    }
     if (status[STATUS_SIDES] > sides_per_polygon && sides_per_polygon < MOST_SIDES) {
         sides_per_polygon = MOST_SIDES;
         more = true;
@@ -191,6 +197,7 @@ bool Capacities::grow(const uint32_t* status) {
     fit(nodes, COUNT_NODES);
     fit(caps, COUNT_CAP_TRIANGLES);
     fit(flap_sides, COUNT_SUSPECT_SIDES);
+    fit(vast_spans, COUNT_VAST_SPANS);
     fit(components, COUNT_COMPONENTS);
     fit(exact_medium, COUNT_EXACT_MEDIUM);
     fit(exact_large, COUNT_EXACT_LARGE);

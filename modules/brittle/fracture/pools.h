@@ -31,6 +31,7 @@ struct Capacities {
     uint32_t collider_directions = 0, colliders = 0, island_pairs = 0, partings = 0; // all 0 where none are asked for
     uint32_t collider_faces = 0, collider_vertices = 0, collider_corners = 0;
     uint32_t exact_medium = 0, exact_large = 0;
+    uint32_t vast_sides = 0, vast_spans = 0; // 0: kernels of vast faces are not recorded, and an event that meets one fails
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
@@ -53,6 +54,8 @@ struct Capacities {
         }
     } rare;
 
+    uint32_t vastFaces() const { return vast_sides / HUGE_FACE + 1; }
+    uint32_t vastLeaves() const; // of the tree over the heights of their corners
     uint32_t points() const { return vertices + crossings + triples + voronoi_vertices; }
     // Slots of the hash tables.
     uint32_t siteTable() const;
@@ -107,6 +110,10 @@ struct EventBuffers {
     View links, other_links, interval_counts, interval_offsets, face_counts, face_offsets, face_cursors, segments;
     View face_flags, face_slots, faces, wide_faces, large_faces, huge_faces, loose_caps, cap_slots, cap_counts, cap_offsets,
         nodes, rings, loops;
+    View vast_listed, vast_keys, vast_values, vast_other_keys, vast_other_values, vast_histogram, vast_digit_offsets;
+    View vast_span_counts, vast_span_offsets, vast_spans;
+    View vast_faces, vast_ends, vast_chords, vast_rings, vast_diagonals, vast_heads, vast_links, vast_halves, vast_marks,
+        vast_labels, vast_other_labels, vast_flags, vast_offsets, vast_caps;
     // pieces
     View pieces, sources, parents, suspects, flap_table, flap_slots, flap_partners, edge_table, flags, flag_offsets, keys,
         values, other_keys, other_values, histogram, digit_offsets;

@@ -116,9 +116,9 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
         return engine::Error{engine::ErrorCode::Capacity,
                              number(STATUS_BAD_CELLS) + " cells have too many faces or neighbors to be cut; spread the sites"};
     if (s[STATUS_BAD_CAP] != 0)
-        return engine::Error{engine::ErrorCode::Capacity, number(STATUS_BAD_CAP) + " cut faces have more than " +
-                                                              std::to_string(HUGE_FACE) +
-                                                              " edges or too many loops; use more sites or a coarser mesh"};
+        return engine::Error{engine::ErrorCode::Capacity,
+                             number(STATUS_BAD_CAP) +
+                                 " cut faces have outlines too long to be triangulated; use more sites or a coarser mesh"};
     if (s[STATUS_SIDES] > MOST_SIDES)
         return engine::Error{engine::ErrorCode::Capacity, "a triangle has " + number(STATUS_SIDES) +
                                                               " sides in one cell, at most " + std::to_string(MOST_SIDES) +

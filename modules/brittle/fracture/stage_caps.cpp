@@ -104,7 +104,7 @@ void recordConvexCaps(const Event& e) {
     r.publish(COUNT_WIDE_FACES, e.capacity.neighbors);
     r.runGroups("cap_fans_convex", r.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
                 {r.counts(), b.faces, b.face_offsets, b.segments, b.welded, b.shared_points, b.loose_caps, b.cap_counts,
-                 b.wide_faces, b.cap_slots});
+                 b.wide_faces, b.cap_slots, b.vast_faces});
 }
 
 void recordExactCaps(const Event& e) {
@@ -117,7 +117,7 @@ void recordExactCaps(const Event& e) {
     r.publish(COUNT_WIDE_FACES, c.neighbors);
     r.runGroups("cap_fans", r.groupsOf(COUNT_WIDE_FACES), engine::NoPush{},
                 {r.counts(), b.sites, b.faces, b.neighbors, b.face_cells, b.face_offsets, b.segments, b.welded, b.points,
-                 b.loose_caps, b.cap_counts, b.wide_faces, b.large_faces, b.huge_faces, b.cap_slots});
+                 b.loose_caps, b.cap_counts, b.wide_faces, b.large_faces, b.huge_faces, b.cap_slots, b.vast_faces});
     r.publish(COUNT_LARGE_FACES, c.neighbors);
     r.publish(COUNT_HUGE_FACES, c.neighbors);
     r.publish(COUNT_NODES, c.nodes);
@@ -142,6 +142,7 @@ void recordTriangulation(const Event& e) {
         recordConvexCaps(e);
     else
         recordExactCaps(e);
+    if (c.vast_sides != 0) recordVastCaps(e);
     r.scan(Length::counted(COUNT_FACES), b.cap_counts, b.sums, b.cap_offsets,
            {{COUNT_CAP_TRIANGLES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.caps, 0, 0, 0}});
 }

@@ -20,6 +20,10 @@ void recordPieces(const Event& e) {
     r.run("list_caps", Length::counted(COUNT_FACES), caps,
           {r.counts(), b.faces, b.neighbors, b.face_cells, b.face_offsets, b.cap_offsets, b.loose_caps, b.pieces, b.sources,
            b.parents, b.shared_points, b.suspects, b.positions, b.cap_slots});
+    if (e.capacity.vast_sides != 0)
+        r.run("list_vast_caps", Length::counted(COUNT_VAST_HALVES), caps,
+              {r.counts(), b.faces, b.neighbors, b.face_cells, b.vast_faces, b.cap_offsets, b.vast_caps, b.pieces, b.sources,
+               b.parents, b.shared_points, b.suspects, b.positions, b.vast_offsets, b.vast_ends});
     r.publishSum(COUNT_TRIANGLES, e.capacity.pieces,
                  {{COUNT_MESH_TRIANGLES, 1}, {COUNT_FAN_TRIANGLES, 1}, {COUNT_CAP_TRIANGLES, 2}});
 }

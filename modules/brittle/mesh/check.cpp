@@ -3,6 +3,8 @@
 #include "modules/brittle/mesh/components.h"
 #include "modules/brittle/mesh/format.h"
 #include "modules/brittle/mesh/measures.h"
+#include "modules/brittle/mesh/nesting.h"
+#include "modules/brittle/mesh/triangle_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,28 @@ namespace {
 // A plate as thin as this share of its size has no inside on a grid of 24 bits.
 constexpr double kMinThickness = 3e-8;
 
+// Pairs of triangles with the same three corners, each with the next such triangle.
+std::vector<std::array<uint32_t, 2>> findCoincident(const Mesh& mesh) {
+    std::vector<std::pair<Index3, uint32_t>> sorted;
+    sorted.reserve(mesh.triangles.size());
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        Index3 corners = mesh.triangles[t];
+        std::sort(corners.begin(), corners.end());
+        sorted.emplace_back(corners, t);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::array<uint32_t, 2>> pairs;
+    for (size_t k = 1; k < sorted.size(); ++k)
+        if (sorted[k].first == sorted[k - 1].first) pairs.push_back({sorted[k - 1].second, sorted[k].second});
+    return pairs;
+}
+
+// Of triangles with the same corners: whether these run the other way round.
+bool facesBack(const Index3& a, const Index3& b) {
+    const size_t k = static_cast<size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+    return b[(k + 1) % 3] == a[2];
+}
+
 class Inspector {
 public:
     Inspector(const Mesh& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
@@ -20,10 +44,10 @@ public:
 
 private:
     void countEdges();
-    void countTriangles();
+    void countTriangles(const Components& components);
     void checkVolume();
     void checkCrossings(const TriangleTree& tree);
-    void checkNesting(const TriangleTree& tree);
+    void checkNesting(const TriangleTree& tree, const Components& components);
     void complain(uint64_t count, const std::string& what, const Double3& where, const std::string& advice);
     Double3 midpoint(uint32_t edge) const;
     Double3 midpointOf(uint32_t triangle) const;
@@ -41,18 +65,18 @@ MeshReport Inspector::run() {
         return report_;
     }
     report_.measures = measureMesh(mesh_);
+    const Components components = findComponents(mesh_, topology_);
     countEdges();
-    countTriangles();
+    countTriangles(components);
     const bool has_surface = report_.isSound();
     const TriangleTree tree(mesh_);
     checkCrossings(tree);
-    for (const Component& component : findComponents(mesh_, topology_)) {
-        ++report_.components;
+    report_.components = static_cast<uint32_t>(components.all.size());
+    for (const Component& component : components.all)
         report_.cavities += component.volume < 0 ? 1 : 0;
-    }
     if (!has_surface) return report_; // what is not closed has no volume
     checkVolume();
-    checkNesting(tree);
+    checkNesting(tree, components);
     return report_;
 }
 
@@ -99,13 +123,14 @@ void Inspector::countEdges() {
     complain(report_.nonmanifold_edges, "edge", first[2], "where triangles do not pair up; remove inner or doubled faces");
 }
 
-void Inspector::countTriangles() {
+void Inspector::countTriangles(const Components& components) {
     for (size_t t = 0; t < mesh_.triangles.size(); ++t)
         report_.flat_triangles += isFlat(cornersOf(mesh_, t)) ? 1 : 0;
-    const std::vector<uint32_t> duplicates = findDuplicates(mesh_);
-    if (duplicates.empty()) return;
-    report_.duplicate_triangles = static_cast<uint32_t>(duplicates.size());
-    complain(report_.duplicate_triangles, "doubled triangle", middleOf(cornersOf(mesh_, duplicates.front())),
+    const std::vector<uint32_t> faulty = findFaultyDuplicates(mesh_, components);
+    report_.duplicate_triangles = static_cast<uint32_t>(faulty.size());
+    report_.touching_triangles = static_cast<uint32_t>(findDuplicates(mesh_).size() - faulty.size());
+    if (faulty.empty()) return;
+    complain(report_.duplicate_triangles, "doubled triangle", middleOf(cornersOf(mesh_, faulty.front())),
              "remove doubled faces, or give the sheet a thickness");
 }
 
@@ -130,16 +155,16 @@ void Inspector::checkCrossings(const TriangleTree& tree) {
                                "; unite the overlapping parts (boolean union) or move them apart");
 }
 
-void Inspector::checkNesting(const TriangleTree& tree) {
+void Inspector::checkNesting(const TriangleTree& tree, const Components& components) {
     Double3 first = {0, 0, 0};
-    uint64_t tests = 0;
-    for (const Component& component : findComponents(mesh_, topology_)) {
-        if (tests > kMaxNestingTests) {
+    Nesting nesting(mesh_, tree, components, report_.measures.diagonal);
+    for (uint32_t c = 0; c < components.all.size(); ++c) {
+        if (nesting.isTooLong()) {
             report_.problems.emplace_back("too many parts behind one another to see which lie inside which; unite them");
             return;
         }
-        if (windingBelow(mesh_, tree, component.largest_triangle, report_.measures.diagonal, tests) == 1) continue;
-        if (report_.misplaced_components++ == 0) first = midpointOf(component.largest_triangle);
+        if (nesting.windingBelow(c) == 1) continue;
+        if (report_.misplaced_components++ == 0) first = midpointOf(components.all[c].largest_triangle);
     }
     complain(report_.misplaced_components, "part", first,
              "inside another part or inside out; unite the parts, or turn the walls of hollows inward");
@@ -148,18 +173,24 @@ void Inspector::checkNesting(const TriangleTree& tree) {
 } // namespace
 
 std::vector<uint32_t> findDuplicates(const Mesh& mesh) {
-    std::vector<std::pair<Index3, uint32_t>> sorted;
-    sorted.reserve(mesh.triangles.size());
-    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        Index3 corners = mesh.triangles[t];
-        std::sort(corners.begin(), corners.end());
-        sorted.emplace_back(corners, t);
-    }
-    std::sort(sorted.begin(), sorted.end());
     std::vector<uint32_t> duplicates;
-    for (size_t k = 1; k < sorted.size(); ++k)
-        if (sorted[k].first == sorted[k - 1].first) duplicates.push_back(sorted[k].second);
+    for (const auto& [first, other] : findCoincident(mesh))
+        duplicates.push_back(other);
     return duplicates;
+}
+
+std::vector<uint32_t> findFaultyDuplicates(const Mesh& mesh, const Components& components) {
+    std::vector<uint32_t> faulty;
+    const std::vector<std::array<uint32_t, 2>> coincident = findCoincident(mesh);
+    for (size_t k = 0; k < coincident.size(); ++k) {
+        const auto& [first, other] = coincident[k];
+        const bool is_alone =
+            (k == 0 || coincident[k - 1][1] != first) && (k + 1 == coincident.size() || coincident[k + 1][0] != other);
+        const bool is_wall =
+            is_alone && facesBack(mesh.triangles[first], mesh.triangles[other]) && components.of[first] != components.of[other];
+        if (!is_wall) faulty.push_back(other);
+    }
+    return faulty;
 }
 
 MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology) { return Inspector(mesh, topology).run(); }

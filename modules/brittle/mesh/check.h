@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/result.h"
+#include "modules/brittle/mesh/components.h"
 #include "modules/brittle/mesh/mesh.h"
 #include "modules/brittle/mesh/self_intersection.h"
 
@@ -18,7 +19,8 @@ struct MeshReport {
     uint32_t nonmanifold_edges = 0;  // with more triangles that do not pair up
     uint32_t shared_edges = 0;       // with more triangles that do pair up: surfaces that touch there, which is fine
     uint32_t duplicate_triangles = 0;
-    uint32_t flat_triangles = 0; // without area, which is fine
+    uint32_t touching_triangles = 0; // with the corners of one of another component that faces them, which is fine
+    uint32_t flat_triangles = 0;     // without area, which is fine
     uint32_t misplaced_components = 0;
     SelfIntersection self_intersection;
     MeshMeasures measures;
@@ -28,6 +30,9 @@ struct MeshReport {
 
 // Triangles that have the same three corners as an earlier one, whichever way they face.
 std::vector<uint32_t> findDuplicates(const Mesh& mesh);
+
+// The same without walls between solids that touch: two triangles of two components that face each other.
+std::vector<uint32_t> findFaultyDuplicates(const Mesh& mesh, const Components& components);
 
 // Looks for everything that may be wrong.
 MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology);

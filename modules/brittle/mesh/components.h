@@ -1,23 +1,31 @@
-// The parts of a surface that hang together by edges, and whether they nest as the walls of solids do.
+// The parts of a surface that hang together by edges.
 #pragma once
 
-#include "modules/brittle/mesh/triangle_tree.h"
+#include "modules/brittle/mesh/mesh.h"
+
+#include <array>
 
 namespace brittle {
 
+constexpr uint32_t kNoTriangle = 0xffffffff;
+
 struct Component {
-    uint32_t largest_triangle = 0;
     double volume = 0; // negative for the wall of a cavity
+    uint32_t largest_triangle = 0;
+    // The largest triangle of those that face most along +x, -x, +y, -y, +z, -z; kNoTriangle where there is none.
+    std::array<uint32_t, 6> facing = {kNoTriangle, kNoTriangle, kNoTriangle, kNoTriangle, kNoTriangle, kNoTriangle};
 };
 
-std::vector<Component> findComponents(const Mesh& mesh, const MeshTopology& topology);
+struct Components {
+    std::vector<uint32_t> of; // of every triangle: its component
+    std::vector<Component> all;
+};
 
-// How often the whole surface winds around the point just below the middle of the triangle, on the side its normal points away
-// from: 1 wherever the surface bounds a solid, 2 inside a second solid, 0 behind a wall that faces the wrong way.
-// 1 also where no answer is to be had. `tests` grows by the triangles looked at: a ray may pass through all of them, so
-// callers that ask for every part have to stop somewhere.
-int windingBelow(const Mesh& mesh, const TriangleTree& tree, uint32_t triangle, double diagonal, uint64_t& tests);
+// Components in the order of their first triangles. Surfaces that touch at an edge of more than two triangles stay apart; where
+// half-edges have no mate, all triangles at that edge hang together.
+Components findComponents(const Mesh& mesh, const MeshTopology& topology);
 
-constexpr uint64_t kMaxNestingTests = 100'000'000;
+// Measures `count` components of which every triangle knows its own.
+Components measureComponents(const Mesh& mesh, std::vector<uint32_t> of, uint32_t count);
 
 } // namespace brittle

@@ -5,9 +5,6 @@
 namespace brittle {
 namespace {
 
-// Depths below this share of the diagonal are not told from 0: positions are floats, of 24 bits.
-constexpr double kNoiseDepth = 1e-9;
-
 // Overlap of the triangles' shadows on the axis; infinite on an axis that is no direction.
 double overlapAlong(const Double3& axis, const Corners& a, const Corners& b, double min_squared) {
     const double squared = dot(axis, axis);

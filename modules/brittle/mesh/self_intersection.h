@@ -11,8 +11,10 @@
 
 namespace brittle {
 
-// Triangles that cross by less than this share of the diagonal only touch.
+// Triangles that cross by less than this share of the diagonal only touch. All checks and repairs take touching to mean this.
 constexpr double kTouchDepth = 1e-6;
+// Depths below this share of the diagonal are not told from 0: positions are floats, of 24 bits.
+constexpr double kNoiseDepth = 1e-9;
 
 struct Crossing {
     uint32_t first = 0, second = 0; // triangles

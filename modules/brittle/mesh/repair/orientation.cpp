@@ -2,6 +2,7 @@
 
 #include "modules/brittle/mesh/components.h"
 #include "modules/brittle/mesh/measures.h"
+#include "modules/brittle/mesh/nesting.h"
 #include "modules/brittle/mesh/repair/mesh_edit.h"
 #include "modules/brittle/mesh/topology.h"
 #include "modules/brittle/mesh/triangle_shape.h"
@@ -108,24 +109,6 @@ void joinUnbalanced(const Mesh& mesh, const EdgeUses& uses, Orientation& found) 
     found.part_count = count;
 }
 
-struct Part {
-    double volume = 0, largest_area = -1;
-    uint32_t largest = 0; // triangle
-};
-
-std::vector<Part> measureParts(const Mesh& mesh, const Orientation& found) {
-    std::vector<Part> parts(found.part_count);
-    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Corners p = cornersOf(mesh, t);
-        Part& part = parts[found.part[t]];
-        part.volume += dot(p[0], cross(p[1], p[2])) / 6;
-        const double area = length(doubleArea(p));
-        if (area > part.largest_area) part.largest = t;
-        part.largest_area = std::max(part.largest_area, area);
-    }
-    return parts;
-}
-
 void turnParts(Mesh& mesh, const Orientation& found, const std::vector<char>& turn) {
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
         if (turn[found.part[t]]) turnTriangle(mesh, t);
@@ -144,21 +127,23 @@ Orientation findOrientation(const Mesh& mesh, const EdgeUses& uses) {
 std::vector<TurnedPart> turnOutward(Mesh& mesh) {
     const MeshTopology topology = buildTopology(mesh);
     const Orientation found = findOrientation(mesh, EdgeUses(topology));
-    const std::vector<Part> parts = measureParts(mesh, found);
-    std::vector<char> turn(parts.size(), 0);
-    for (size_t p = 0; p < parts.size(); ++p)
-        turn[p] = parts[p].volume < 0 ? 1 : 0;
+    const Components before = measureComponents(mesh, found.part, found.part_count);
+    const size_t count = before.all.size();
+    std::vector<char> turn(count, 0), is_hollow(count, 0);
+    for (size_t p = 0; p < count; ++p)
+        turn[p] = before.all[p].volume < 0 ? 1 : 0;
     turnParts(mesh, found, turn);
+    const Components parts = measureComponents(mesh, found.part, found.part_count);
     const TriangleTree tree(mesh);
-    const double diagonal = measureMesh(mesh).diagonal;
-    std::vector<char> is_hollow(parts.size(), 0);
-    uint64_t tests = 0;
-    for (size_t p = 0; p < parts.size() && tests <= kMaxNestingTests; ++p) // the check refuses what takes longer
-        is_hollow[p] = windingBelow(mesh, tree, parts[p].largest, diagonal, tests) % 2 == 0 ? 1 : 0;
+    Nesting nesting(mesh, tree, parts, measureMesh(mesh).diagonal);
+    for (uint32_t p = 0; p < count && !nesting.isTooLong(); ++p) // the check refuses what takes longer
+        is_hollow[p] = nesting.windingBelow(p) % 2 == 0 ? 1 : 0;
     turnParts(mesh, found, is_hollow);
     std::vector<TurnedPart> turned;
-    for (size_t p = 0; p < parts.size(); ++p)
-        if (turn[p] != is_hollow[p]) turned.push_back({middleOf(cornersOf(mesh, parts[p].largest)), is_hollow[p] != 0});
+    for (size_t p = 0; p < count; ++p)
+        if (turn[p] != is_hollow[p])
+            turned.push_back(
+                {middleOf(cornersOf(mesh, parts.all[p].largest_triangle)), is_hollow[p] != 0, -2 * before.all[p].volume});
     return turned;
 }
 

@@ -19,6 +19,7 @@ Orientation findOrientation(const Mesh& mesh, const EdgeUses& uses);
 struct TurnedPart {
     Double3 where = {0, 0, 0}; // in the middle of its largest triangle, relative to the mesh's center
     bool is_hollow = false;
+    double added_volume = 0; // to that of the whole mesh
 };
 
 // Turns the parts of a closed, consistently oriented mesh so that each has its solid behind it: outward, or inward for one

@@ -23,10 +23,10 @@ public:
     engine::Result<RepairedMesh> run();
 
 private:
-    void mendSeams();
+    engine::Result<void> mendSeams();
     engine::Result<void> makeNeighborsAgree();
     engine::Result<void> closeHoles();
-    void turnPartsOutward();
+    engine::Result<void> turnPartsOutward();
     void note(const std::vector<Double3>& where, std::vector<Double3>& notes) const {
         for (const Double3& place : where)
             notes.push_back(mesh_.center + place);
@@ -40,22 +40,29 @@ private:
 };
 
 engine::Result<RepairedMesh> Repair::run() {
-    mendSeams();
+    if (auto mended = mendSeams(); !mended) return mended.error();
     note(dropDoubles(mesh_), notes_.dropped_doubles);
     if (mesh_.triangles.empty()) return refuse("nothing is left of it without doubled faces; give it a thickness");
     if (auto agree = makeNeighborsAgree(); !agree) return agree.error();
     if (auto closed = closeHoles(); !closed) return closed.error();
-    if (!hasOddEdges()) turnPartsOutward();
+    if (!hasOddEdges())
+        if (auto outward = turnPartsOutward(); !outward) return outward.error();
     RepairedMesh repaired{finishMesh(std::move(welded_)), std::move(notes_)};
     const auto report = checkMesh(repaired.model.mesh, repaired.model.topology);
     if (!report) return refuse(report.error().message);
     return repaired;
 }
 
-void Repair::mendSeams() {
+// Seams move a surface by their own width, so they change the volume by no more than that times the area.
+engine::Result<void> Repair::mendSeams() {
+    const MeshMeasures before = measureMesh(mesh_);
     note(joinSeams(mesh_, diagonal_), notes_.joined_vertices);
     note(dropLooseFlat(mesh_), notes_.dropped_flat);
     note(splitJunctions(mesh_, diagonal_), notes_.split_edges);
+    const double after = measureMesh(mesh_).volume;
+    if (std::abs(after - before.volume) <= kSeamWidth * diagonal_ * before.area) return {};
+    return refuse("joining its seams would change its volume from " + formatNumber(before.volume) + " to " +
+                  formatNumber(after) + "; join them in a modeling program");
 }
 
 engine::Result<void> Repair::makeNeighborsAgree() {
@@ -99,9 +106,19 @@ bool Repair::hasOddEdges() const {
     return false;
 }
 
-void Repair::turnPartsOutward() {
-    for (const TurnedPart& part : turnOutward(mesh_))
+// The volume changes by that of the parts that are noted, and by nothing else.
+engine::Result<void> Repair::turnPartsOutward() {
+    notes_.volume_before = measureMesh(mesh_).volume;
+    double expected = notes_.volume_before;
+    for (const TurnedPart& part : turnOutward(mesh_)) {
         (part.is_hollow ? notes_.turned_hollows : notes_.turned_parts).push_back(mesh_.center + part.where);
+        expected += part.added_volume;
+    }
+    const MeshMeasures after = measureMesh(mesh_);
+    notes_.volume_after = after.volume;
+    if (std::abs(after.volume - expected) <= 1e-9 * diagonal_ * after.area) return {};
+    return refuse("turning its parts would change its volume to " + formatNumber(after.volume) + " instead of " +
+                  formatNumber(expected) + "; please report it with this file");
 }
 
 void addText(std::string& line, size_t count, const Double3& first, const char* one, const char* many, const char* done) {
@@ -124,6 +141,8 @@ std::string RepairNotes::text() const {
     if (!closed_holes.empty()) addText(line, closed_holes.size(), closed_holes.front().where, "hole", "holes", "closed");
     add(turned_parts, "part", "parts", "turned outward");
     add(turned_hollows, "part inside another", "parts inside another", "turned into a hollow");
+    if (!turned_parts.empty() || !turned_hollows.empty())
+        line += "; the volume goes from " + formatNumber(volume_before) + " to " + formatNumber(volume_after);
     return line;
 }
 

@@ -8,7 +8,7 @@
 //   holes       small ones are closed
 //   inside out  every part faces outward, or inward where it is the wall of a hollow in another
 // What comes out has passed the same check as every other model. A surface that cannot be made a solid by these steps alone is
-// refused: there is no guessing.
+// refused: there is no guessing. A repair that changes the volume by more than its notes account for is refused as well.
 #pragma once
 
 #include "engine/result.h"
@@ -30,9 +30,10 @@ constexpr double kMaxHoleShare = 0.75;   // and in any case if its filling has n
 // What was mended, and where (model space).
 struct RepairNotes {
     std::vector<Double3> joined_vertices, split_edges, dropped_flat, dropped_doubles;
-    std::vector<Double3> turned_triangles; // that disagreed with the rest of their part
-    std::vector<Double3> turned_parts;     // that faced inward
-    std::vector<Double3> turned_hollows;   // parts inside others that faced outward
+    std::vector<Double3> turned_triangles;      // that disagreed with the rest of their part
+    std::vector<Double3> turned_parts;          // that faced inward
+    std::vector<Double3> turned_hollows;        // parts inside others that faced outward
+    double volume_before = 0, volume_after = 0; // of the closed surface, before and after parts were turned
     struct Hole {
         uint32_t edges = 0;
         double diameter = 0; // of its box
