@@ -37,10 +37,10 @@ constexpr BadModel sound(const char* name) { return {name, kSound, kSound, ""}; 
 constexpr BadModel kModels[] = {
     unreadable("bad/fandisk-truncated.off", "face 4593 of 12946"),
     unreadable("bad/gearwheel-truncated.stl", "promises 2444 triangles in 122284 bytes but it has 85598"),
-    unreadable("bad/gearwheel-count-huge.stl", "promises 4294967295 triangles"),
+    sound("bad/gearwheel-count-huge.stl"),
     sound("bad/gearwheel-solid-header.stl"),
     unreadable("bad/spot-nan.obj", "line 10: a coordinate is not a finite number"),
-    unreadable("bad/torus-index-out-of-range.obj", "line 2313: a face refers to a vertex that is not there"),
+    unreadable("bad/torus-index-out-of-range.obj", "line 2358: a face refers to a vertex that is not there"),
     unreadable("bad/bones-face-count-too-big.off", "face 4204 of 4704"),
     unreadable("bad/WaterBottle-truncated.glb", "cannot be read"),
     unreadable("bad/abdomen-truncated.dae", "cannot be read"),

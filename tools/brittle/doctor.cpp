@@ -37,9 +37,9 @@ engine::Result<std::optional<brittle::OutputFile>> openOutput(const DoctorOption
 
 // Examines the model first.
 brittle::MeshReport print(const DoctorOptions& options, const brittle::PreparedMesh& model,
-                          const brittle::RepairNotes* mended) {
+                          const std::vector<std::string>& reader_notes, const brittle::RepairNotes* mended) {
     showProgress("examining " + options.model);
-    const DoctorReport report{options.model, &model, brittle::diagnoseMesh(model.mesh, model.topology), mended};
+    const DoctorReport report{options.model, &model, brittle::diagnoseMesh(model.mesh, model.topology), mended, reader_notes};
     clearProgress();
     if (options.as_json)
         printReportJson(report);
@@ -61,8 +61,11 @@ engine::Result<void> examine(const DoctorOptions& options, const brittle::Import
         return engine::Error{engine::ErrorCode::BadInput, options.model + ": " + message};
     };
     const auto model = brittle::prepareMesh(imported);
-    if (!model) return named(model.error().message);
-    const brittle::MeshReport report = print(options, *model, nullptr);
+    if (!model) {
+        reportReaderNotes(options.model, imported.notes);
+        return named(model.error().message);
+    }
+    const brittle::MeshReport report = print(options, *model, imported.notes, nullptr);
     if (report.isSound()) return {};
     return named(report.problems.front() + adviceToRepair(report));
 }
@@ -71,10 +74,10 @@ engine::Result<void> mend(const DoctorOptions& options, const brittle::ImportedM
                           std::optional<brittle::OutputFile>& output) {
     const auto repaired = brittle::repairMesh(imported);
     if (!repaired) {
-        if (const auto model = brittle::prepareMesh(imported)) print(options, *model, nullptr);
+        if (const auto model = brittle::prepareMesh(imported)) print(options, *model, imported.notes, nullptr);
         return engine::Error{repaired.error().code, options.model + ": " + repaired.error().message};
     }
-    print(options, repaired->model, &repaired->notes);
+    print(options, repaired->model, imported.notes, &repaired->notes);
     reportMended(options.model, repaired->notes);
     return output ? write(options, repaired->model.mesh, *output) : engine::Result<void>();
 }

@@ -159,6 +159,8 @@ void printReport(const DoctorReport& report) {
     const brittle::MeshReport& found = report.diagnosis.report;
     std::printf("%s: %s\n", report.name.c_str(), found.isSound() ? "sound, can be broken" : "cannot be broken");
     printSurface(report);
+    for (const std::string& note : report.reader_notes)
+        row("note", note);
     printFaults(report.diagnosis);
     if (report.mended && !report.mended->isEmpty()) row("mended", report.mended->text());
     for (const std::string& problem : found.problems)
@@ -173,6 +175,7 @@ void printReportJson(const DoctorReport& report) {
                      {"welded_vertices", notes.welded},
                      {"collapsed_triangles", notes.collapsed},
                      {"turned_inside_out", notes.turned_inside_out}};
+    json["reader_notes"] = report.reader_notes;
     for (const char* list : {"parts", "holes", "crossings", "slivers"})
         json[list] = nlohmann::ordered_json::array();
     addPlaces(json, report.diagnosis);

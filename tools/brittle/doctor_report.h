@@ -5,6 +5,7 @@
 #include "modules/brittle/mesh/repair/repair.h"
 
 #include <string>
+#include <vector>
 
 namespace cli {
 
@@ -13,6 +14,7 @@ struct DoctorReport {
     const brittle::PreparedMesh* model = nullptr;
     brittle::MeshDiagnosis diagnosis;
     const brittle::RepairNotes* mended = nullptr; // where it was asked for
+    std::vector<std::string> reader_notes;        // what the reader of the file left out
 };
 
 // For reading: counts of everything, and the first few places of each kind.

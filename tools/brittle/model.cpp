@@ -18,9 +18,16 @@ engine::Result<brittle::ImportedMesh> importModel(const std::string& name) {
     return brittle::importMesh(example.empty() ? std::filesystem::path(name) : example);
 }
 
+void reportReaderNotes(const std::string& name, const std::vector<std::string>& notes) {
+    if (!notes.empty()) clearProgress();
+    for (const std::string& note : notes)
+        std::fprintf(stderr, "brittle: %s: %s\n", name.c_str(), note.c_str());
+}
+
 engine::Result<brittle::RepairedMesh> loadModel(const std::string& name, bool repair) {
     const auto imported = importModel(name);
     if (!imported) return imported.error();
+    reportReaderNotes(name, imported->notes);
     const auto named = [&](const engine::Error& error) { return engine::Error{error.code, name + ": " + error.message}; };
     if (repair) {
         auto repaired = brittle::repairMesh(*imported);

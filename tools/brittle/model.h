@@ -18,7 +18,11 @@ constexpr const char* kRepairHelp =
 // of all of these begin with the name given.
 engine::Result<brittle::ImportedMesh> importModel(const std::string& name);
 
-// Prepared, not yet checked. With `repair` mended as well, if it needs to be, and then sound for sure.
+// Prints what the reader of the file left out, a line each, on stderr.
+void reportReaderNotes(const std::string& name, const std::vector<std::string>& notes);
+
+// Prepared, not yet checked; prints the reader's notes. With `repair` mended as well, if it needs to be, and then sound for
+// sure.
 engine::Result<brittle::RepairedMesh> loadModel(const std::string& name, bool repair);
 
 // What to add to a refusal: that --repair may help, where it may.

@@ -30,7 +30,7 @@ engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& p
     if (file.bad()) return bad("cannot be read; is it a file?");
     std::vector<brittle::Double3> sites;
     brittle::TextReader text(std::string_view(bytes).substr(bytes.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0));
-    for (std::string_view line = text.nextFullLine('#'); !line.empty(); line = text.nextFullLine('#')) {
+    for (std::string_view line = text.nextFullLine(); !line.empty(); line = text.nextFullLine()) {
         const auto badLine = [&](const char* what) { return bad("line " + std::to_string(text.line()) + ": " + what); };
         brittle::Words words(line);
         brittle::Double3& site = sites.emplace_back();

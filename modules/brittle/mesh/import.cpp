@@ -1,10 +1,7 @@
 #include "modules/brittle/mesh/import.h"
 
+#include "modules/brittle/mesh/read_assimp.h"
 #include "modules/brittle/mesh/readers.h"
-#include "modules/brittle/mesh/vector_math.h"
-
-#include <assimp/Importer.hpp>
-#include <assimp/scene.h>
 
 #include <algorithm>
 #include <cstring>
@@ -39,128 +36,6 @@ engine::Result<std::string> readBytes(const std::filesystem::path& path, uintmax
     return bytes;
 }
 
-// ---- assimp ---------------------------------------------------------------------------------------------------------------
-// Debian's build of it has no handler to install for its assertions. The child hands the finished mesh over as bytes.
-
-// Row-major, in double: a model may lie far from the origin by its node's translation alone.
-struct Transform {
-    std::array<Double3, 3> rows = {Double3{1, 0, 0}, Double3{0, 1, 0}, Double3{0, 0, 1}};
-    Double3 offset = {0, 0, 0};
-
-    Double3 turned(const Double3& p) const { return {dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)}; }
-    Double3 column(size_t c) const { return {rows[0][c], rows[1][c], rows[2][c]}; }
-    double determinant() const { return dot(rows[0], cross(rows[1], rows[2])); }
-    // By the cofactors, so that normals stay upright under uneven scale.
-    Double3 turnedNormal(const Double3& n) const {
-        const double sign = determinant() < 0 ? -1 : 1;
-        const std::array<Double3, 3> cofactors = {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
-        return sign * Double3{dot(cofactors[0], n), dot(cofactors[1], n), dot(cofactors[2], n)};
-    }
-};
-
-Transform toTransform(const aiMatrix4x4& m) {
-    const auto row = [&](unsigned r) {
-        return Double3{static_cast<double>(m[r][0]), static_cast<double>(m[r][1]), static_cast<double>(m[r][2])};
-    };
-    return {{row(0), row(1), row(2)},
-            {static_cast<double>(m[0][3]), static_cast<double>(m[1][3]), static_cast<double>(m[2][3])}};
-}
-
-Transform operator*(const Transform& a, const Transform& b) {
-    Transform product;
-    for (size_t r = 0; r < 3; ++r)
-        product.rows[r] = {dot(a.rows[r], b.column(0)), dot(a.rows[r], b.column(1)), dot(a.rows[r], b.column(2))};
-    product.offset = a.turned(b.offset) + a.offset;
-    return product;
-}
-
-Double3 toDouble(const aiVector3D& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
-
-class SceneFlattener {
-public:
-    engine::Result<ImportedMesh> run(const aiScene& scene);
-
-private:
-    const char* addMesh(const aiMesh& mesh, const Transform& transform);
-    PolygonCorner corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const;
-
-    MeshBuilder mesh_;
-    uint32_t first_vertex_ = 0;
-    std::vector<PolygonCorner> corners_;
-};
-
-engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene) {
-    if (!scene.mRootNode) return badInput("no scene in it; export the model again");
-    std::vector<std::pair<const aiNode*, Transform>> waiting = {
-        {scene.mRootNode, toTransform(scene.mRootNode->mTransformation)}};
-    while (!waiting.empty()) {
-        const auto [node, transform] = waiting.back();
-        waiting.pop_back();
-        for (unsigned m = 0; m < node->mNumMeshes; ++m) {
-            if (node->mMeshes[m] >= scene.mNumMeshes) return badInput("a node refers to a mesh that is not there");
-            if (const char* wrong = addMesh(*scene.mMeshes[node->mMeshes[m]], transform))
-                return badInput("mesh " + std::to_string(node->mMeshes[m]) + ": " + wrong);
-        }
-        for (unsigned c = node->mNumChildren; c-- > 0;)
-            waiting.emplace_back(node->mChildren[c], transform * toTransform(node->mChildren[c]->mTransformation));
-    }
-    if (mesh_.triangleCount() == 0) return badInput("no triangles in it; export the model with its meshes");
-    return mesh_.take();
-}
-
-const char* SceneFlattener::addMesh(const aiMesh& mesh, const Transform& transform) {
-    first_vertex_ = static_cast<uint32_t>(mesh_.vertexCount());
-    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-        const Double3 position = transform.turned(toDouble(mesh.mVertices[v])) + transform.offset;
-        if (!isFinite(position)) return kNotFinite;
-        mesh_.addVertex(position);
-    }
-    const bool is_mirrored = transform.determinant() < 0;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-        const aiFace& face = mesh.mFaces[f];
-        corners_.clear();
-        for (unsigned k = 0; k < face.mNumIndices; ++k) {
-            if (face.mIndices[k] >= mesh.mNumVertices) return "a face refers to a vertex that is not there";
-            corners_.push_back(corner(mesh, face.mIndices[k], transform));
-        }
-        if (is_mirrored) std::reverse(corners_.begin(), corners_.end());
-        if (const char* wrong = mesh_.addPolygon(corners_)) return wrong;
-    }
-    return nullptr;
-}
-
-PolygonCorner SceneFlattener::corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const {
-    PolygonCorner corner;
-    corner.position = first_vertex_ + index;
-    if (mesh.mNormals) corner.normal = toFloat(normalized(transform.turnedNormal(toDouble(mesh.mNormals[index])), {0, 0, 0}));
-    if (mesh.mTextureCoords[0]) corner.uv = {mesh.mTextureCoords[0][index].x, 1 - mesh.mTextureCoords[0][index].y};
-    return corner;
-}
-
-// Libraries' messages may run over lines and pages.
-std::string oneLine(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
-    if (text.size() > 200) text = text.substr(0, 200) + "...";
-    return text;
-}
-
-// No post-processing: its triangulation, for one, asserts on damaged faces.
-engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene) {
-    if (!scene) return badInput("cannot be read: " + oneLine(importer.GetErrorString()) + "; export it again");
-    return SceneFlattener().run(*scene);
-}
-
-engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path) {
-    Assimp::Importer importer;
-    return flatten(importer, importer.ReadFile(path.string(), 0));
-}
-
-engine::Result<ImportedMesh> readByAssimp(std::string_view bytes, const std::string& ending) {
-    Assimp::Importer importer;
-    return flatten(importer, importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1));
-}
-
 // ---- the way from the child -----------------------------------------------------------------------------------------------
 
 template <class T>
@@ -183,6 +58,26 @@ bool extract(std::string_view& bytes, std::vector<T>& values) {
     return true;
 }
 
+// One line each.
+std::vector<char> joined(const std::vector<std::string>& notes) {
+    std::vector<char> text;
+    for (const std::string& note : notes) {
+        const std::string line = oneLine(note);
+        text.insert(text.end(), line.begin(), line.end());
+        text.push_back('\n');
+    }
+    return text;
+}
+
+std::vector<std::string> parted(const std::vector<char>& text) {
+    std::vector<std::string> notes;
+    for (auto begin = text.begin(), end = begin; begin != text.end(); begin = end == text.end() ? end : end + 1) {
+        end = std::find(begin, text.end(), '\n');
+        notes.push_back(oneLine({begin, end}));
+    }
+    return notes;
+}
+
 constexpr char kIsMesh = 'm', kIsError = 'e';
 
 std::string encode(const engine::Result<ImportedMesh>& mesh) {
@@ -192,6 +87,7 @@ std::string encode(const engine::Result<ImportedMesh>& mesh) {
     append(bytes, mesh->triangles);
     append(bytes, mesh->corner_normals);
     append(bytes, mesh->corner_uvs);
+    append(bytes, joined(mesh->notes));
     return bytes;
 }
 
@@ -199,16 +95,18 @@ std::string encode(const engine::Result<ImportedMesh>& mesh) {
 engine::Result<ImportedMesh> decode(std::string_view bytes) {
     if (bytes.starts_with(kIsError)) return badInput(oneLine(std::string(bytes.substr(1))));
     ImportedMesh mesh;
+    std::vector<char> notes;
     const bool has_marker = bytes.starts_with(kIsMesh);
     if (has_marker) bytes.remove_prefix(1);
     const bool is_whole = has_marker && extract(bytes, mesh.positions) && extract(bytes, mesh.triangles) &&
-                          extract(bytes, mesh.corner_normals) && extract(bytes, mesh.corner_uvs) && bytes.empty() &&
-                          mesh.corner_normals.size() == 3 * mesh.triangles.size() &&
+                          extract(bytes, mesh.corner_normals) && extract(bytes, mesh.corner_uvs) && extract(bytes, notes) &&
+                          bytes.empty() && mesh.corner_normals.size() == 3 * mesh.triangles.size() &&
                           mesh.corner_uvs.size() == 3 * mesh.triangles.size();
     const bool in_range = std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Index3& t) {
         return std::max({t[0], t[1], t[2]}) < mesh.positions.size();
     });
     if (!is_whole || !in_range) return badInput("the reader failed on it; the file is damaged, export it again");
+    mesh.notes = parted(notes);
     return mesh;
 }
 
@@ -258,7 +156,7 @@ engine::Result<ImportedMesh> importUnnamed(const std::filesystem::path& path) {
     const std::string ending = lowerCase(path.extension().string());
     if (auto known = checkEnding(ending); !known) return known.error();
     const Reader reader = ownReader(ending);
-    if (!reader) return importIsolated([&] { return readByAssimp(path); }, limitsFor(*size));
+    if (!reader) return importIsolated([&] { return readByAssimp(path, ending); }, limitsFor(*size));
     const auto bytes = readBytes(path, *size);
     if (!bytes) return bytes.error();
     return reader(*bytes);

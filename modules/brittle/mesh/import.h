@@ -14,7 +14,8 @@
 
 namespace brittle {
 
-// All meshes of the file as one, nodes' transforms applied. Texture coordinates follow glTF: v points down.
+// All meshes of the file as one, nodes' transforms applied. Texture coordinates follow glTF: v points down. FBX and DAE arrive
+// in meters with y up, the other formats as they are.
 // BadInput for whatever cannot be read, in one line that begins with the file's name; no file crashes or hangs the process.
 engine::Result<ImportedMesh> importMesh(const std::filesystem::path& path);
 

@@ -1,8 +1,20 @@
 #include "modules/brittle/mesh/imported_mesh.h"
 
 #include "modules/brittle/mesh/polygon.h"
+#include "modules/brittle/mesh/vector_math.h"
 
 namespace brittle {
+namespace {
+
+// Along the diagonal at which the halves bend less.
+std::vector<Index3> cutFoldedQuad(const std::vector<Double3>& p) {
+    const std::vector<Index3> cuts[] = {{{0, 1, 2}, {0, 2, 3}}, {{1, 2, 3}, {1, 3, 0}}};
+    const auto normal = [&](const Index3& t) { return normalized(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]), {0, 0, 0}); };
+    const auto agreement = [&](const std::vector<Index3>& cut) { return dot(normal(cut[0]), normal(cut[1])); };
+    return agreement(cuts[1]) > agreement(cuts[0]) ? cuts[1] : cuts[0];
+}
+
+} // namespace
 
 const char* MeshBuilder::addPolygon(std::span<const PolygonCorner> corners) {
     corners_.clear();
@@ -19,11 +31,21 @@ const char* MeshBuilder::addPolygon(std::span<const PolygonCorner> corners) {
     outline_.clear();
     for (const PolygonCorner& corner : corners_)
         outline_.push_back(mesh_.positions[corner.position]);
-    const std::vector<Index3> triangles = triangulatePolygon(outline_);
+    std::vector<Index3> triangles = triangulatePolygon(outline_);
+    if (triangles.empty() && corners_.size() == 4) {
+        triangles = cutFoldedQuad(outline_);
+        ++folded_quads_;
+    }
     if (triangles.empty()) return "a polygon crosses itself or winds too much; triangulate it before export";
     for (const Index3& t : triangles)
         addTriangle(corners_[t[0]], corners_[t[1]], corners_[t[2]]);
     return nullptr;
+}
+
+ImportedMesh MeshBuilder::take() {
+    if (folded_quads_ > 0)
+        mesh_.notes.push_back("quads that seem to cross themselves are cut along a diagonal: " + std::to_string(folded_quads_));
+    return std::move(mesh_);
 }
 
 void MeshBuilder::addTriangle(const PolygonCorner& a, const PolygonCorner& b, const PolygonCorner& c) {

@@ -1,9 +1,10 @@
-// What a file holds, before it is anything to break: polygons cut into triangles, positions in double.
+// The content of a model file: polygons cut into triangles, positions in double.
 #pragma once
 
 #include "modules/brittle/mesh/mesh.h"
 
 #include <span>
+#include <string>
 
 namespace brittle {
 
@@ -12,6 +13,7 @@ struct ImportedMesh {
     std::vector<Index3> triangles;
     std::vector<Float3> corner_normals; // three per triangle; zero where the file has none
     std::vector<Float2> corner_uvs;     // three per triangle; zero where the file has none
+    std::vector<std::string> notes;     // one sentence for each kind of content that was left out
 };
 
 struct PolygonCorner {
@@ -29,10 +31,12 @@ public:
     size_t vertexCount() const { return mesh_.positions.size(); }
     size_t triangleCount() const { return mesh_.triangles.size(); }
 
-    // The corners' positions must be there already. Says what is wrong with the polygon, nullptr where nothing is.
-    // Corners that repeat the one before are skipped; what then has fewer than three is no polygon and adds nothing.
+    // The corners' positions must be there already. Says what is wrong with the polygon, nullptr if nothing is.
+    // Corners that repeat the one before are skipped; what then has fewer than three is no polygon and adds nothing. A bent
+    // quad that seems to cross itself is cut along a diagonal: checks of the mesh report the harm, if any.
     const char* addPolygon(std::span<const PolygonCorner> corners);
-    ImportedMesh take() { return std::move(mesh_); }
+    // Adds a note on what was cut anyhow.
+    ImportedMesh take();
 
 private:
     void addTriangle(const PolygonCorner& a, const PolygonCorner& b, const PolygonCorner& c);
@@ -40,6 +44,7 @@ private:
     ImportedMesh mesh_;
     std::vector<PolygonCorner> corners_; // of the current polygon
     std::vector<Double3> outline_;
+    size_t folded_quads_ = 0;
 };
 
 } // namespace brittle

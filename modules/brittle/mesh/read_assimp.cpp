@@ -1,0 +1,183 @@
+#include "modules/brittle/mesh/read_assimp.h"
+
+#include "modules/brittle/mesh/model_frame.h"
+#include "modules/brittle/mesh/readers.h"
+#include "modules/brittle/mesh/text_reader.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace brittle {
+namespace {
+
+Transform toTransform(const aiMatrix4x4& m) {
+    const auto row = [&](unsigned r) {
+        return Double3{static_cast<double>(m[r][0]), static_cast<double>(m[r][1]), static_cast<double>(m[r][2])};
+    };
+    return {{row(0), row(1), row(2)},
+            {static_cast<double>(m[0][3]), static_cast<double>(m[1][3]), static_cast<double>(m[2][3])}};
+}
+
+Double3 toDouble(const aiVector3D& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+
+class SceneFlattener {
+public:
+    // `root` replaces the transform of the root node.
+    engine::Result<ImportedMesh> run(const aiScene& scene, const Transform& root);
+
+private:
+    const char* addMesh(const aiMesh& mesh, const Transform& transform);
+    PolygonCorner corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const;
+
+    MeshBuilder mesh_;
+    uint32_t first_vertex_ = 0;
+    std::vector<PolygonCorner> corners_;
+};
+
+engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Transform& root) {
+    std::vector<std::pair<const aiNode*, Transform>> waiting = {{scene.mRootNode, root}};
+    while (!waiting.empty()) {
+        const auto [node, transform] = waiting.back();
+        waiting.pop_back();
+        for (unsigned m = 0; m < node->mNumMeshes; ++m) {
+            if (node->mMeshes[m] >= scene.mNumMeshes) return badInput("a node refers to a mesh that is not there");
+            if (const char* wrong = addMesh(*scene.mMeshes[node->mMeshes[m]], transform))
+                return badInput("mesh " + std::to_string(node->mMeshes[m]) + ": " + wrong);
+        }
+        for (unsigned c = node->mNumChildren; c-- > 0;)
+            waiting.emplace_back(node->mChildren[c], transform * toTransform(node->mChildren[c]->mTransformation));
+    }
+    if (mesh_.triangleCount() == 0) return badInput("no triangles in it; export the model with its meshes");
+    return mesh_.take();
+}
+
+const char* SceneFlattener::addMesh(const aiMesh& mesh, const Transform& transform) {
+    first_vertex_ = static_cast<uint32_t>(mesh_.vertexCount());
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+        const Double3 position = transform.moved(toDouble(mesh.mVertices[v]));
+        if (!isFinite(position)) return kNotFinite;
+        mesh_.addVertex(position);
+    }
+    const bool is_mirrored = transform.determinant() < 0;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        corners_.clear();
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            if (face.mIndices[k] >= mesh.mNumVertices) return "a face refers to a vertex that is not there";
+            corners_.push_back(corner(mesh, face.mIndices[k], transform));
+        }
+        if (is_mirrored) std::reverse(corners_.begin(), corners_.end());
+        if (const char* wrong = mesh_.addPolygon(corners_)) return wrong;
+    }
+    return nullptr;
+}
+
+PolygonCorner SceneFlattener::corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const {
+    PolygonCorner corner;
+    corner.position = first_vertex_ + index;
+    if (mesh.mNormals) corner.normal = toFloat(normalized(transform.turnedNormal(toDouble(mesh.mNormals[index])), {0, 0, 0}));
+    if (mesh.mTextureCoords[0]) corner.uv = {mesh.mTextureCoords[0][index].x, 1 - mesh.mTextureCoords[0][index].y};
+    return corner;
+}
+
+// ---- units and axes -------------------------------------------------------------------------------------------------------
+// COLLADA: assimp scales and turns the root node by them. FBX: assimp 5.2 leaves them to its user, as metadata; since 5.4 it
+// turns the root node, but not to meters. An FBX root has no transform of its own, so that ours may always replace it.
+
+struct RootNotes {
+    Transform root;
+    std::vector<std::string> notes;
+};
+
+template <class T>
+T metadata(const aiScene& scene, const char* key, T otherwise) {
+    T value = otherwise;
+    return scene.mMetaData && scene.mMetaData->Get(key, value) ? value : otherwise;
+}
+
+FileAxis fbxAxis(const aiScene& scene, const std::string& name, int otherwise) {
+    return {metadata<int32_t>(scene, name.c_str(), otherwise), metadata<int32_t>(scene, (name + "Sign").c_str(), 1)};
+}
+
+// Centimeters per unit; 1 where the file does not say.
+double fbxUnit(const aiScene& scene) {
+    const float as_float = metadata<float>(scene, "UnitScaleFactor", 0);
+    return metadata<double>(scene, "UnitScaleFactor", as_float == 0 ? 1 : fromShortFloat(as_float));
+}
+
+RootNotes fbxRoot(const aiScene& scene) {
+    ModelFrame frame{fbxUnit(scene) / 100, fbxAxis(scene, "CoordAxis", 0), fbxAxis(scene, "UpAxis", 1),
+                     fbxAxis(scene, "FrontAxis", 2)};
+    std::vector<std::string> notes;
+    if (!isPossible(frame)) {
+        notes.push_back("unit or axes in the settings of the file are impossible; taken as centimeters and y up");
+        frame = ModelFrame{0.01, {0, 1}, {1, 1}, {2, 1}};
+    }
+    for (std::string& note : describeFrame(frame))
+        notes.push_back(std::move(note));
+    return {toMeters(frame), notes};
+}
+
+// In double and by decimals, because 0.01 in float is no hundredth.
+RootNotes colladaRoot(const aiScene& scene) {
+    const Transform root = toTransform(scene.mRootNode->mTransformation);
+    ModelFrame frame;
+    if (!findFrame(root, frame)) return {root, {}};
+    return {toMeters(frame), describeFrame(frame)};
+}
+
+// ---- reading --------------------------------------------------------------------------------------------------------------
+
+// No post-processing: its triangulation, for one, asserts on damaged faces.
+engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene, const std::string& ending) {
+    if (!scene) return badInput("cannot be read: " + oneLine(importer.GetErrorString()) + "; export it again");
+    if (!scene->mRootNode) return badInput("no scene in it; export the model again");
+    RootNotes root{toTransform(scene->mRootNode->mTransformation), {}};
+    if (ending == ".fbx") root = fbxRoot(*scene);
+    if (ending == ".dae") root = colladaRoot(*scene);
+    auto mesh = SceneFlattener().run(*scene, root.root);
+    if (mesh) mesh->notes.insert(mesh->notes.begin(), root.notes.begin(), root.notes.end());
+    return mesh;
+}
+
+// Assimp 5.2 does not get over blanks before the numbers of an element, as an exporter for Blender writes them.
+std::string withoutBlanksBehindTags(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    bool is_behind_tag = false;
+    for (const char c : text) {
+        if (is_behind_tag && isBlank(c)) continue;
+        is_behind_tag = c == '>';
+        result += c;
+    }
+    return result;
+}
+
+engine::Result<ImportedMesh> readFromMemory(std::string_view bytes, const std::string& ending) {
+    Assimp::Importer importer;
+    return flatten(importer, importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1), ending);
+}
+
+} // namespace
+
+engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path, const std::string& ending) {
+    if (ending == ".dae") {
+        std::ifstream file(path, std::ios::binary);
+        const std::string text((std::istreambuf_iterator<char>(file)), {});
+        if (!file.is_open() || file.bad()) return badInput("cannot be read; check its permissions");
+        return readByAssimp(std::string_view(text), ending);
+    }
+    Assimp::Importer importer;
+    return flatten(importer, importer.ReadFile(path.string(), 0), ending);
+}
+
+engine::Result<ImportedMesh> readByAssimp(std::string_view bytes, const std::string& ending) {
+    if (isUtf16(bytes)) return badInput(kUtf16);
+    return ending == ".dae" ? readFromMemory(withoutBlanksBehindTags(bytes), ending) : readFromMemory(bytes, ending);
+}
+
+} // namespace brittle
