@@ -35,6 +35,8 @@ rule(modules "engine/(module|frame)" "only register_module meets the engine's re
     EXCEPT modules/brittle/register_module.h modules/brittle/register_module.cpp)
 rule(modules/brittle/mesh "(volk|vulkan)" "the mesh knows no Vulkan")
 rule(modules "assimp/" "only mesh/read_assimp sees assimp" EXCEPT modules/brittle/mesh/read_assimp.cpp)
+rule(modules "meshoptimizer" "only gltf/meshopt sees meshoptimizer" EXCEPT modules/brittle/mesh/gltf/meshopt.cpp)
+rule(modules "draco/" "only gltf/draco sees Draco" EXCEPT modules/brittle/mesh/gltf/draco.cpp)
 rule(modules "toml\\+\\+/" "only read_scene sees toml++" EXCEPT modules/brittle/scene/read_scene.cpp)
 rule(modules "libqhull" "only qhull_faces sees Qhull" EXCEPT modules/brittle/scene/hull/qhull_faces.cpp)
 rule(modules/brittle/godot "(engine/|shaders-spirv/|volk|vulkan|modules/brittle/[a-fh-z][a-z_]*/)" "plugins know nothing but the C ABI")

@@ -4,7 +4,7 @@
 #
 # The driver and the libraries it depends on are unpacked once (tools/unpack_debian.sh) and take 320 MB on disk.
 # The program runs by the newer suite's loader. Each library comes from the newer suite if that was unpacked (libstdc++, libz,
-# LLVM), otherwise from the system (assimp, qhull).
+# LLVM), otherwise from the system (assimp, Draco, meshoptimizer, qhull).
 # Exit code 77, with the reason: the driver cannot be obtained on this machine.
 set -euo pipefail
 

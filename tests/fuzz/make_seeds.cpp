@@ -1,10 +1,11 @@
-// make_seeds FOLDER: writes FOLDER/obj, off, ply, stl, gltf, glb, fbx and dae with small models for the fuzzers to start from,
-// sound and spoiled in the ways that mending is about, and FOLDER/toml with small scenes.
+// make_seeds FOLDER: writes FOLDER/obj, off, ply, stl, gltf, glb, gltf_reader, fbx and dae with small models for the fuzzers to
+// start from, sound and spoiled in the ways that mending is about, and FOLDER/toml with small scenes.
 #include "modules/brittle/export/model_file.h"
 #include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/primitives.h"
 #include "modules/brittle/scene/library/builtin_scenes.h"
 #include "modules/brittle/scene/scene_file.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/solids.h"
 
 #include <assimp/Exporter.hpp>
@@ -135,19 +136,6 @@ std::string bigEndianPlyOf(const Mesh& mesh) {
     return bytes;
 }
 
-std::string base64(const std::string& bytes) {
-    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t k = 0; k < bytes.size(); k += 3) {
-        uint32_t group = 0;
-        for (size_t b = 0; b < 3; ++b)
-            group = group << 8 | (k + b < bytes.size() ? static_cast<uint8_t>(bytes[k + b]) : 0u);
-        for (size_t d = 0; d < 4; ++d)
-            text += k + d > bytes.size() ? '=' : kDigits[group >> (18 - 6 * d) & 63];
-    }
-    return text;
-}
-
 std::string read(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -158,7 +146,7 @@ void embedBuffer(const fs::path& gltf) {
     const fs::path buffer = fs::path(gltf).replace_extension(".bin");
     std::string text = read(gltf);
     if (const size_t at = text.find(buffer.filename().string()); at != text.npos)
-        text.replace(at, buffer.filename().string().size(), "data:application/octet-stream;base64," + base64(read(buffer)));
+        text.replace(at, buffer.filename().string().size(), "data:application/octet-stream;base64," + base64Of(read(buffer)));
     fs::remove(buffer);
     write(gltf, text);
 }
@@ -176,6 +164,13 @@ void writeOthers(const fs::path& folder, const fs::path& obj) {
         Assimp::Exporter().Export(scene, id, path.string());
         if (path.extension() == ".gltf") embedBuffer(path);
     }
+}
+
+void writeGltf(const fs::path& folder, const std::string& name, const GltfBuilder& builder) {
+    for (const char* reader : {"gltf_reader", "glb"})
+        write(folder / reader / (name + ".glb"), builder.glb());
+    for (const char* reader : {"gltf_reader", "gltf"})
+        write(folder / reader / (name + ".gltf"), builder.gltf());
 }
 
 void writeScenes(const fs::path& folder) {
@@ -203,6 +198,8 @@ int main(int argc, char** argv) {
         write(folder / "stl" / (name + "_text.stl"), stlTextOf(mesh));
         writeOthers(folder, folder / "obj" / (name + ".obj"));
     }
+    writeGltf(folder, "rich", richGltf());
+    writeGltf(folder, "cube_alone", cubeFile());
     writeScenes(folder / "toml");
     return 0;
 }

@@ -1,5 +1,5 @@
 // The library reads no files: a host hands over meshes. With this in place of mesh/import.cpp, which the linker then leaves
-// out, no host loads assimp, and none is forked to read a model.
+// out, no host loads assimp, Draco or meshoptimizer, and none is forked to read a model.
 #include "modules/brittle/mesh/import.h"
 
 namespace brittle {

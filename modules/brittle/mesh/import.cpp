@@ -1,5 +1,6 @@
 #include "modules/brittle/mesh/import.h"
 
+#include "modules/brittle/mesh/gltf/gltf.h"
 #include "modules/brittle/mesh/read_assimp.h"
 #include "modules/brittle/mesh/readers.h"
 
@@ -33,6 +34,41 @@ engine::Result<std::string> readBytes(const std::filesystem::path& path, uintmax
     std::ifstream file(path, std::ios::binary);
     std::string bytes(size, '\0');
     if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) return badInput("cannot be read; check its permissions");
+    return bytes;
+}
+
+// ---- glTF -----------------------------------------------------------------------------------------------------------------
+
+bool isGltf(const std::string& ending) { return ending == ".glb" || ending == ".gltf"; }
+
+engine::Result<std::string> readWholeFile(const std::filesystem::path& path) {
+    const auto size = fileSize(path);
+    if (!size) return size.error();
+    return readBytes(path, *size);
+}
+
+engine::Result<ImportedMesh> readGltfFile(const std::filesystem::path& path) {
+    const auto bytes = readWholeFile(path);
+    if (!bytes) return bytes.error();
+    return readGltf(*bytes, [&](const std::string& name) { return readWholeFile(path.parent_path() / name); });
+}
+
+engine::Result<ImportedMesh> readGltfAlone(std::string_view bytes) {
+    return readGltf(bytes, [](const std::string&) { return badInput("it is not in memory"); });
+}
+
+// Bytes of the files beside a model, of which some may be its buffers.
+uintmax_t bytesBeside(const std::filesystem::path& path) {
+    constexpr size_t kMostFiles = 10'000;
+    std::error_code error;
+    uintmax_t bytes = 0;
+    size_t count = 0;
+    for (std::filesystem::directory_iterator file(path.parent_path().empty() ? "." : path.parent_path(), error), end;
+         !error && file != end && count < kMostFiles; file.increment(error), ++count) {
+        std::error_code unreadable;
+        const uintmax_t size = file->is_regular_file(unreadable) ? file->file_size(unreadable) : 0;
+        if (!unreadable) bytes = std::min(bytes + size, kMaxFileBytes);
+    }
     return bytes;
 }
 
@@ -156,6 +192,10 @@ engine::Result<ImportedMesh> importUnnamed(const std::filesystem::path& path) {
     const std::string ending = lowerCase(path.extension().string());
     if (auto known = checkEnding(ending); !known) return known.error();
     const Reader reader = ownReader(ending);
+    if (isGltf(ending)) {
+        const uintmax_t buffers = ending == ".gltf" ? bytesBeside(path) : 0;
+        return importIsolated([&] { return readGltfFile(path); }, limitsFor(*size + buffers));
+    }
     if (!reader) return importIsolated([&] { return readByAssimp(path, ending); }, limitsFor(*size));
     const auto bytes = readBytes(path, *size);
     if (!bytes) return bytes.error();
@@ -171,7 +211,8 @@ engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view
     if (bytes.empty()) return badInput("the file is empty");
     try {
         const Reader reader = ownReader(lower);
-        return reader ? reader(bytes) : importIsolated([&] { return readByAssimp(bytes, lower); }, limits);
+        if (reader) return reader(bytes);
+        return importIsolated([&] { return isGltf(lower) ? readGltfAlone(bytes) : readByAssimp(bytes, lower); }, limits);
     } catch (const std::exception&) {
         return badInput("cannot be read; too large");
     }

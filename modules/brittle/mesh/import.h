@@ -1,8 +1,8 @@
-// Reads a model from a file: OBJ, PLY, STL and OFF by readers of our own, which keep doubles; GLB, glTF, FBX and DAE by assimp.
+// Reads a model from a file: OBJ, PLY, STL, OFF, GLB and glTF by readers of our own; FBX and DAE by assimp.
 //
-// Assimp aborts, crashes or goes round in circles on some broken files. It runs in a process of its own (engine/isolated.h)
-// that is forked for the one file, so that none of this reaches the caller's process. What it hands over is believed no more
-// than a file.
+// Assimp aborts, crashes or never ends on some broken files, and GLB may hold data compressed by other libraries. These
+// formats are read in a process of its own (engine/isolated.h), which is forked for the one file. The mesh that it hands over
+// is checked like a file.
 #pragma once
 
 #include "engine/isolated.h"
@@ -20,7 +20,7 @@ namespace brittle {
 engine::Result<ImportedMesh> importMesh(const std::filesystem::path& path);
 
 // The same from memory; `ending` tells the format, dot and all. What lies in other files beside it (the buffers of a glTF) is
-// missing. The limits are those of assimp's process; by default as for a file of that size.
+// missing. The limits are those of that process; by default as for a file of that size.
 engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending, const engine::IsolationLimits& limits);
 engine::Result<ImportedMesh> importMesh(std::string_view bytes, std::string_view ending);
 
