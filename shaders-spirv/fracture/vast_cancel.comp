@@ -20,13 +20,15 @@ void main() {
     if (k >= counts[COUNT_VAST_SIDES] || counts[STATUS_FAILED] != 0u) return;
     uvec4 mine = vast_ends[k];
     uint along = 0u, against = 0u, earlier = 0u;
-    for (uint s = firstSideAt(mine.w, mine.x); beginsAt(s, mine.w, mine.x); s++) {
+    uint s = firstSideAt(mine.w, mine.x), end = endOfSidesAt(s, mine.w, mine.x);
+    for (; s < end; s++) {
         bool same = vast_ends[s].y == mine.y;
         along += same ? 1u : 0u;
         earlier += same && s < k ? 1u : 0u;
     }
     uint there = firstSideAt(mine.w, mine.y);
-    for (uint s = there; beginsAt(s, mine.w, mine.y); s++) against += vast_ends[s].y == mine.x ? 1u : 0u;
+    end = endOfSidesAt(there, mine.w, mine.y);
+    for (s = there; s < end; s++) against += vast_ends[s].y == mine.x ? 1u : 0u;
     bool is_left = mine.x != mine.y && along > against && earlier < along - against;
     vast_ends[k].z = is_left ? 1u : 0u;
     vast_rings[k] = uvec4(NO_INDEX, NO_INDEX, 0u, 0u);

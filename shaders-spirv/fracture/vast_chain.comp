@@ -22,10 +22,10 @@ void join(uint into, uint out_) {
     vast_rings[out_].y = into;
 }
 
-uint bestWayOut(uint into, uint j, uint place, uint first) {
+uint bestWayOut(uint into, uint first, uint end) {
     uint best = NO_INDEX;
     ivec2 here = vast_chords[into].zw, back = vast_chords[into].xy - here, best_way = ivec2(0);
-    for (uint s = first; beginsAt(s, j, place); s++) {
+    for (uint s = first; s < end; s++) {
         if (vast_ends[s].z == 0u || vast_rings[s].y != NO_INDEX) continue;
         ivec2 way = vast_chords[s].zw - here;
         if (best == NO_INDEX || furtherLeft(back, way, best_way)) {
@@ -50,10 +50,10 @@ void main() {
     if (mine.z == 0u) return;
     uint first = firstSideAt(mine.w, mine.y);
     if (!beginsAt(first, mine.w, mine.y)) return;
-    uint head = vast_heads[first];
+    uint head = vast_heads[first], end = endOfSidesAt(first, mine.w, mine.y);
     if (lowestFrom(head, 0u) != k) return;
     for (uint into = k; into != NO_INDEX; into = lowestFrom(head, into + 1u)) {
-        uint best = bestWayOut(into, mine.w, mine.y, first);
+        uint best = bestWayOut(into, first, end);
         if (best != NO_INDEX) join(into, best);
     }
 }

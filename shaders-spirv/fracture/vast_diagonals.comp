@@ -76,7 +76,8 @@ Walls wallsAt(uint corner) {
     Crossing left = Crossing(int64_t(0), int64_t(0), ivec2(0)), right = left;
     ivec2 at = placeOf(corner);
     for (uint node = leaves + vast_rings[corner].z; node != 0u; node >>= 1) {
-        for (uint e = span_offsets[node]; e < span_offsets[node + 1u]; e++) {
+        uint end = span_offsets[node + 1u];
+        for (uint e = span_offsets[node]; e < end; e++) {
             compareWall(walls, left, right, vast_spans[e], at);
         }
     }

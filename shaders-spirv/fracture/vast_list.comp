@@ -17,8 +17,8 @@ WRITES(7, uint, keys);
 WRITES(8, uint, values);
 
 uint faceOf(uint lane) {
-    uint found = 0u;
-    for (uint j = 0u; j < counts[COUNT_VAST_FACES]; j++) {
+    uint found = 0u, faces_ = counts[COUNT_VAST_FACES];
+    for (uint j = 0u; j < faces_; j++) {
         bool holds = lane >= vast_faces[j].first && lane - vast_faces[j].first < vast_faces[j].count;
         found = holds ? j : found;
     }

@@ -22,14 +22,26 @@ WRITES(11, uvec2, vast_diagonals);
 WRITES(12, uint, vast_heads);
 WRITES(13, uint, vast_flags); // of half-edges: their corner is a triangle of the cap
 
-bool beginsWith(uint at, uvec4 side) { return listed[values[at]].x == side.x && listed[values[at]].w == side.w; }
+bool beginsWith(uint at, uvec4 side) {
+    if (at >= counts[COUNT_VAST_SIDES]) return false;
+    uvec4 other = listed[values[at]];
+    return other.x == side.x && other.w == side.w;
+}
 
 // Where the side belongs among those that begin at its corner.
 uint placeInOrder(uint at, uvec4 side) {
-    uint first = at, lower = 0u;
-    while (first > 0u && beginsWith(first - 1u, side)) first--;
-    for (uint other = first; other < counts[COUNT_VAST_SIDES] && beginsWith(other, side); other++) {
+    uint first = at, other = at, lower = 0u;
+    bool goes_on = true;
+    for (uint step = 0u; step < MOST_TURNS / 2u && goes_on; step++) {
+        lower += listed[values[first]].z < side.z ? 1u : 0u;
+        goes_on = first > 0u && beginsWith(first - 1u, side);
+        first -= goes_on ? 1u : 0u;
+    }
+    goes_on = beginsWith(other + 1u, side);
+    for (uint step = 0u; step < MOST_TURNS / 2u && goes_on; step++) {
+        other++;
         lower += listed[values[other]].z < side.z ? 1u : 0u;
+        goes_on = beginsWith(other + 1u, side);
     }
     return first + lower;
 }

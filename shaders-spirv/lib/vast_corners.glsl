@@ -15,3 +15,14 @@ uint firstSideAt(uint j, uint name) {
 bool beginsAt(uint side, uint j, uint name) {
     return side < counts[COUNT_VAST_SIDES] && vast_ends[side].x == name && vast_ends[side].w == j;
 }
+
+// The end of the sides that begin there, of which the first is given.
+uint endOfSidesAt(uint first, uint j, uint name) {
+    uint end = first;
+    bool goes_on = beginsAt(end, j, name);
+    for (uint step = 0u; step < MOST_TURNS / 3u && goes_on; step++) {
+        end++;
+        goes_on = beginsAt(end, j, name);
+    }
+    return end;
+}

@@ -68,6 +68,8 @@ void takeKept(const Input& in, Taker& take) {
     b.vast_ends = take.quads(c.vast_sides);
     b.vast_offsets = take.words(uint64_t{VAST_HALVES} * c.vast_sides + 1);
     b.vast_caps = take.words(3ull * VAST_HALVES * c.vast_sides);
+    b.wedges = take.words(c.touching ? 3ull * c.triangles : 0);
+    if (c.touching) b.polygon_sides = take.words(c.sides);             // islands are told apart by them
     if (c.collider_directions != 0) b.corners = take.quads(c.corners); // colliders start from them
 }
 
@@ -88,7 +90,7 @@ void takeDiagram(const Input& in, Taker& take) {
     b.edge_sites = take.quads(c.voronoi_edges);
     b.edge_ends = take.words(2ull * c.voronoi_edges);
     b.crossings = take.quads(c.crossings);
-    b.polygon_sides = take.words(c.sides);
+    if (!c.touching) b.polygon_sides = take.words(c.sides);
     b.triples = take.quads(c.triples);
     b.triple_signs = take.words(c.triples);
     b.points = take.words(6 * points);

@@ -10,6 +10,7 @@
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
 #include "modules/brittle/fracture/warm_kernels.h"
+#include "modules/brittle/mesh/topology.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
@@ -62,6 +63,7 @@ public:
         capacity = options.only_cells ? forCellsOnly(capacity) : withColliders(capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.relaxed = options.relax != 0;
+        capacity.touching = touchesItself(topology);
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         auto attempt = tryUntilItFits(mesh, topology, options, *prepared, capacity);
@@ -281,6 +283,8 @@ private:
         const KnownCounts known = knownCounts(mesh, topology, capacity.sites, capacity.bins, group_size_);
         known.addTo(upload, b.counts, b.args);
         addMesh(upload, mesh, topology, attributes, b);
+        const std::vector<uint32_t> wedges = capacity.touching ? wedgesOf(topology) : std::vector<uint32_t>();
+        upload.add(std::span(wedges), b.wedges);
         addSites(upload, p, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();

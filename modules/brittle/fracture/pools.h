@@ -36,6 +36,7 @@ struct Capacities {
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
     bool tiled = false;       // of several objects
+    bool touching = false;    // the mesh has edges of more than two triangles, and `wedges` are uploaded
     bool relaxed = false;     // sites are still moved when cells have been cut
     uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
@@ -87,7 +88,7 @@ struct EventBuffers {
     using View = engine::BufferView;
     View counts, args, sums;
     // mesh
-    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, corner_attributes, grid_vertices, vertex_tiles;
+    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, wedges, corner_attributes, grid_vertices, vertex_tiles;
     // sites
     View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags,
         site_offsets;

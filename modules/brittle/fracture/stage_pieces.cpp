@@ -59,7 +59,13 @@ void recordUnion(const Event& e, uint32_t count) {
     Recorder& r = e.record;
     r.clear({b.edge_table});
     uint32_t mask = static_cast<uint32_t>(b.edge_table.size / 4) - 1;
-    r.run("unite_triangles", Length::counted(count), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
+    if (c.touching)
+        for (const uint32_t is_second : {0u, 1u})
+            r.run("unite_wedges", Length::counted(count), mask,
+                  {r.counts(), b.pieces, b.parents, b.edge_table, b.sources, b.wedges, b.polygon_offsets, b.polygon_sides},
+                  is_second);
+    else
+        r.run("unite_triangles", Length::counted(count), mask, {r.counts(), b.pieces, b.parents, b.edge_table});
     r.run("flag_components", Length::counted(count), engine::NoPush{}, {r.counts(), b.pieces, b.parents, b.flags});
     r.scan(Length::counted(count), b.flags, b.sums, b.flag_offsets,
            {{COUNT_VALID, COUNT_COMPONENTS, NO_INDEX, NO_INDEX}, {c.pieces, c.components, 0, 0}}, true);

@@ -11,4 +11,11 @@ constexpr uint32_t kNoMate = 0xffffffff; // across a half-edge of an open or inc
 // the same wedge of solid, so that surfaces which merely touch there stay apart.
 MeshTopology buildTopology(const Mesh& mesh);
 
+// Returns whether a closed surface has edges of more than two triangles.
+bool touchesItself(const MeshTopology& topology);
+
+// Returns the wedge of solid of every half-edge at such an edge: the lower of the two half-edges that bound it. Other half-edges get
+// kNoMate.
+std::vector<uint32_t> wedgesOf(const MeshTopology& topology);
+
 } // namespace brittle

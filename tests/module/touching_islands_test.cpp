@@ -1,0 +1,79 @@
+// Solids that touch only along edges or corners come apart: no fragment holds parts of two of them.
+#include "modules/brittle/mesh/primitives.h"
+#include "tests/module/whole_fracture.h"
+#include "tests/support/solids.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace whole;
+using brittle::Double3;
+using support::moved;
+using support::operator+;
+
+// Two pyramids on one square base, as wide as 2 * half.
+brittle::ImportedMesh bipyramid(double half) {
+    brittle::ImportedMesh solid;
+    solid.positions = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}, {0, 0, 0.4}, {0, 0, -0.4}};
+    for (uint32_t k = 0; k < 4; ++k) {
+        const uint32_t next = (k + 1) % 4;
+        solid.triangles.push_back({k, next, 4});
+        solid.triangles.push_back({next, k, 5});
+    }
+    solid.corner_normals.resize(3 * solid.triangles.size());
+    solid.corner_uvs.resize(3 * solid.triangles.size());
+    return solid;
+}
+
+// A square frame whose hole has a ridge all round, which the bipyramid touches along its four edges.
+brittle::ImportedMesh frameAround(double half) {
+    brittle::ImportedMesh frame;
+    const std::array<std::array<double, 2>, 5> profile = {{{half, 0}, {1, 0.6}, {2, 0.6}, {2, -0.6}, {1, -0.6}}}; // radius, z
+    for (const auto& [radius, z] : profile)
+        for (const auto& [x, y] : {std::array{-1, -1}, std::array{1, -1}, std::array{1, 1}, std::array{-1, 1}})
+            frame.positions.push_back({radius * x, radius * y, z});
+    const auto at = [](uint32_t p, uint32_t k) { return 4 * (p % 5) + k % 4; };
+    for (uint32_t p = 0; p < 5; ++p)
+        for (uint32_t k = 0; k < 4; ++k) {
+            frame.triangles.push_back({at(p, k), at(p + 1, k), at(p + 1, k + 1)});
+            frame.triangles.push_back({at(p, k), at(p + 1, k + 1), at(p, k + 1)});
+        }
+    frame.corner_normals.resize(3 * frame.triangles.size());
+    frame.corner_uvs.resize(3 * frame.triangles.size());
+    return frame;
+}
+
+size_t fragmentsOf(const brittle::ImportedMesh& solid, const std::vector<Double3>& sites) {
+    brittle::FractureOptions options;
+    options.given_sites = sites;
+    const Model model = modelFrom(solid);
+    const auto result = fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
+    if (!result) throw std::runtime_error(result.error().message);
+    expectContract(model, *result);
+    return result->fragments.fragments.size();
+}
+
+std::vector<Double3> sitesAbout(const Double3& middle, uint32_t count) {
+    std::vector<Double3> sites;
+    for (uint32_t k = 0; k < count; ++k)
+        sites.push_back(middle + Double3{0.37 * (k % 3) - 0.31, 0.41 * (k / 3 % 3) - 0.42, 0.29 * (k / 9) - 0.3});
+    return sites;
+}
+
+void expectApart(const brittle::ImportedMesh& a, const brittle::ImportedMesh& b) {
+    for (const uint32_t count : {1u, 2u, 5u, 27u}) {
+        const std::vector<Double3> sites = sitesAbout({0.5, 0.5, 0}, count);
+        EXPECT_EQ(fragmentsOf(a + b, sites), fragmentsOf(a, sites) + fragmentsOf(b, sites)) << count << " sites";
+    }
+}
+
+} // namespace
+
+TEST(TouchingIslands, OfCubesThatShareAnEdgeOrACorner) {
+    const brittle::ImportedMesh cube = brittle::makeCube();
+    expectApart(cube, moved(cube, 1, {1, 1, 0}));
+    expectApart(cube, moved(cube, 1, {1, 1, 1}));
+}
+
+TEST(TouchingIslands, OfASolidThatTouchesAnotherAllAround) { expectApart(frameAround(0.5), bipyramid(0.5)); }
