@@ -77,7 +77,9 @@ void expectThatTheLastOneLeaves(double degrees, uint32_t cubes) {
         EXPECT_NEAR(run.speed(k), k == cubes ? speed : 0, 1e-3 * speed)
             << "cube " << k << " of " << cubes << ", " << degrees << " degrees";
         const gpu::vec4 v = run.state(k).velocity;
-        if (k == cubes) EXPECT_NEAR(v.x * along[0] + v.z * along[2], speed, 1e-3 * speed) << degrees << " degrees";
+        if (k == cubes) {
+            EXPECT_NEAR(v.x * along[0] + v.z * along[2], speed, 1e-3 * speed) << degrees << " degrees";
+        }
     }
 }
 

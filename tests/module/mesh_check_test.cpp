@@ -164,8 +164,8 @@ TEST(Check, FlatAndDoubledModels) {
         p[2] = 0;
     EXPECT_FALSE(inspect(flat).isSound());
     const ImportedMesh sheet = makeCube();
-    const MeshReport doubled = inspect(sheet + turnedOver(sheet));
-    EXPECT_EQ(doubled.duplicate_triangles, 12u);
+    EXPECT_EQ(inspect(sheet + sheet).duplicate_triangles, 12u);
+    EXPECT_TRUE(mentions(inspect(sheet + turnedOver(sheet)), "flat")); // a cube whose hollow is as large as itself
 }
 
 TEST(Check, EmptyMesh) { EXPECT_FALSE(checkMesh(Mesh{}, MeshTopology{})); }

@@ -10,6 +10,7 @@ namespace {
 using namespace whole;
 using brittle::Double3;
 using support::moved;
+using brittle::operator+;
 using support::operator+;
 
 // Two pyramids on one square base, as wide as 2 * half.

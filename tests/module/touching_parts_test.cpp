@@ -51,7 +51,7 @@ void expectSound(const ImportedMesh& imported, double volume, uint32_t parts) {
 TEST(TouchingParts, RowsOfBlocksAreSound) {
     std::mt19937 random(62);
     for (uint32_t row = 0; row < 24; ++row) {
-        const uint32_t count = 6 + random() % 15;
+        const auto count = static_cast<uint32_t>(6 + random() % 15);
         const Double3 size = {0.1 + fractionFrom(random), 0.1 + fractionFrom(random), 0.1 + fractionFrom(random)};
         const bool is_shifted = row % 3 != 0; // then no two faces have the same corners
         ImportedMesh blocks;
