@@ -165,7 +165,7 @@ TEST(Check, FlatAndDoubledModels) {
     EXPECT_FALSE(inspect(flat).isSound());
     const ImportedMesh sheet = makeCube();
     EXPECT_EQ(inspect(sheet + sheet).duplicate_triangles, 12u);
-    EXPECT_TRUE(mentions(inspect(sheet + turnedOver(sheet)), "flat")); // a cube whose hollow is as large as itself
+    EXPECT_EQ(inspect(sheet + turnedOver(sheet)).duplicate_triangles, 12u); // its faces have two sides
 }
 
 TEST(Check, EmptyMesh) { EXPECT_FALSE(checkMesh(Mesh{}, MeshTopology{})); }
