@@ -4,8 +4,18 @@
 # Packages with samples: assimp-testmodels, openscad-testing-data.
 set -uo pipefail
 
-program=${1:?usage: tools/sample_models.sh PROGRAM FOLDER...}
+usage() {
+  echo "sample_models: $1; usage: tools/sample_models.sh PROGRAM FOLDER..." >&2
+  exit 2
+}
+
+[ $# -ge 2 ] || usage "no program or no folder is given"
+program=$1
 shift
+[ -x "$program" ] || usage "$program is not a program"
+for folder in "$@"; do
+  [ -d "$folder" ] || usage "$folder is not a folder"
+done
 refusals=$(mktemp)
 trap 'rm -f "$refusals"' EXIT
 status=0

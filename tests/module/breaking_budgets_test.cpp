@@ -103,6 +103,22 @@ engine::Result<std::unique_ptr<brittle::World>> tryWorldOfABall(const brittle::B
                                   budget);
 }
 
+// 20,480 triangles: budgets follow the largest surface that breaks.
+TEST(BreakingBudgets, AFineMeshBreaksWithoutBudgetsOfItsOwn) {
+    BodyDescription bumpy = ball({0, 1.2, 0}, "glass");
+    bumpy.shape.kind = brittle::ShapeKind::Mesh;
+    bumpy.shape.file = "builtin:bumpy:5";
+    bumpy.shape.sites = 1;
+    bumpy.velocity = {0, -6, 0};
+    const auto world = worldOf(sceneOf({bumpy}));
+    const double mass = massOf(presentBodies(*world));
+    const auto events = stepUntilItBreaks(*world, 30);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].made.y, 0u);
+    EXPECT_GT(events[0].made.x, 50u);
+    EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-5 * mass);
+}
+
 TEST(BreakingBudgets, BudgetsOfOneFragmentAreRefused) {
     for (const auto budget_of : {&brittle::BreakingBudget::most_fragments, &brittle::BreakingBudget::step_sites}) {
         brittle::BreakingBudget budget;

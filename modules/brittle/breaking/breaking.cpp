@@ -241,8 +241,8 @@ private:
         auto scene = SceneBuffers::create(device_, event_.capacity.emitted, event_.capacity.fragments);
         if (!scene) return scene.error();
         scene_ = std::move(*scene);
-        if (auto fits = canBind(scene_->views().vertices.size); !fits) return fits;
-        if (auto fits = canBind(contents.surface_vertices.size() * sizeof(FragmentVertex)); !fits) return fits;
+        if (auto fits = canBind(scene_->views().vertices.size, contents); !fits) return fits;
+        if (auto fits = canBind(contents.surface_vertices.size() * sizeof(FragmentVertex), contents); !fits) return fits;
         auto colliders = ColliderBuffers::create(device_, event_.capacity);
         if (!colliders) return colliders.error();
         colliders_.emplace(std::move(*colliders));
@@ -251,7 +251,7 @@ private:
         if (!plan) return plan.error();
         if (!other) return other.error();
         if (auto laid_out = layOutAll(*plan, *other, contents); !laid_out) return laid_out;
-        if (auto fits = canBind(std::max(plan->largest(), other->largest())); !fits) return fits;
+        if (auto fits = canBind(std::max(plan->largest(), other->largest()), contents); !fits) return fits;
         auto lasting = engine::ScratchArena::create(device_, plan->peak(), "breaking", VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
              passing = engine::ScratchArena::create(device_, other->peak(), "breaking, in a step");
         if (!lasting) return lasting.error();
@@ -288,12 +288,14 @@ private:
         return {};
     }
 
-    Result<void> canBind(uint64_t bytes) const {
+    Result<void> canBind(uint64_t bytes, const WorldContents& contents) const {
         const uint64_t most = device_.limits().maxStorageBufferRange;
         if (bytes <= most) return {};
-        return Error{ErrorCode::Capacity, "what breaks needs a list of " + std::to_string(bytes) +
-                                              " bytes, the device can bind " + std::to_string(most) +
-                                              "; lower the budgets of fragments and of what breaks in a step"};
+        return Error{ErrorCode::Capacity,
+                     "what breaks needs a list of " + std::to_string(bytes) + " bytes, the device can bind " +
+                         std::to_string(most) + "; the largest body that breaks has " +
+                         std::to_string(largestSurface(contents)) +
+                         " triangles: simplify it, or lower the budgets of fragments and of what breaks in a step"};
     }
 
     Result<void> fill(const WorldContents& contents) {

@@ -1,10 +1,12 @@
 #include "modules/brittle/breaking/room_to_break.h"
 
+#include "modules/brittle/breaking/break.h"
 #include "modules/brittle/breaking/breakable.h"
 #include "shaders-spirv/shared/debris.h"
 #include "shaders-spirv/shared/pool.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 
 namespace brittle {
@@ -14,6 +16,7 @@ using engine::Error, engine::ErrorCode;
 
 constexpr uint32_t kFragments = 1024, kFacesOfOne = 24, kTrianglesOfOne = 96;
 constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
+constexpr uint64_t kMostUsualTriangles = 1'000'000; // that take 96 MB
 
 uint32_t timesRounded(uint32_t count, uint32_t each) { return (count + each - 1) / each; }
 
@@ -32,11 +35,20 @@ uint32_t faceRoom(const WorldContents& contents) {
 
 uint32_t trianglesOf(const gpu::BreakableBody& body) { return (body.surface.y + body.surface.z) / 3; }
 
-uint32_t largestSurface(const WorldContents& contents) {
-    uint32_t most = 0;
+// Two large bodies that break in one step are rare: the other waits.
+uint32_t usualStepTriangles(uint32_t largest) { return std::max(kStepTriangles, largest + std::min(largest, 65'536u)); }
+
+// Room for the fragments of as many of the largest bodies as there is room for, if each breaks into the most.
+uint32_t usualTriangles(const WorldContents& contents, uint32_t fragments, uint32_t most_fragments) {
+    std::vector<uint32_t> surfaces;
     for (const gpu::BreakableBody& body : contents.breakable)
-        most = std::max(most, trianglesOf(body));
-    return most;
+        surfaces.push_back(trianglesOf(body));
+    std::ranges::sort(surfaces, std::greater());
+    surfaces.resize(std::min<size_t>(surfaces.size(), std::max(fragments / most_fragments, 1u)));
+    uint64_t triangles = 0;
+    for (const uint32_t surface : surfaces)
+        triangles += usualFragmentTriangles(surface, most_fragments);
+    return static_cast<uint32_t>(std::max(std::min(triangles, kMostUsualTriangles), kTrianglesOfOne * uint64_t{fragments}));
 }
 
 uint32_t chosen(uint32_t given, uint32_t usual) { return given != 0 ? given : usual; }
@@ -83,11 +95,18 @@ gpu::BodyState absentBody() {
 
 } // namespace
 
+uint32_t largestSurface(const WorldContents& contents) {
+    uint32_t most = 0;
+    for (const gpu::BreakableBody& body : contents.breakable)
+        most = std::max(most, trianglesOf(body));
+    return most;
+}
+
 engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget) {
     RoomToBreak room;
     const uint32_t fragments = chosen(budget.fragments, kFragments);
     room.step_bodies = std::min<uint32_t>(chosen(budget.step_bodies, kStepBodies), MOST_BREAKING);
-    room.step_triangles = chosen(budget.step_triangles, std::max(kStepTriangles, 2 * largestSurface(contents)));
+    room.step_triangles = chosen(budget.step_triangles, usualStepTriangles(largestSurface(contents)));
     room.step_sites = chosen(budget.step_sites, kStepSites);
     room.most_fragments = std::min(chosen(budget.most_fragments, kFragmentsOfOne), room.step_sites);
     if (room.most_fragments < 2)
@@ -102,7 +121,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     const std::array<uint32_t, POOLS> taken = {room.bodies, room.pieces, faces, triangles};
     PoolRoom& pools = room.pools;
     pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + chosen(budget.faces, kFacesOfOne * fragments),
-                      triangles + chosen(budget.triangles, kTrianglesOfOne * fragments)};
+                      triangles + chosen(budget.triangles, usualTriangles(contents, fragments, room.most_fragments))};
     // What cannot break gives nothing back.
     const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
     pools.objects = fragments + static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));

@@ -26,6 +26,9 @@ struct RoomToBreak {
     FreeLists free; // before anything breaks
 };
 
+// Triangles of the largest surface that can break.
+uint32_t largestSurface(const WorldContents& contents);
+
 // Every number given. Errors: Capacity for more than pools can hold (world_pools.h).
 engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget);
 

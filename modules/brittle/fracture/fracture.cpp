@@ -10,7 +10,7 @@
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
 #include "modules/brittle/fracture/warm_kernels.h"
-#include "modules/brittle/mesh/topology.h"
+#include "modules/brittle/fracture/wedges.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
@@ -63,7 +63,8 @@ public:
         capacity = options.only_cells ? forCellsOnly(capacity) : withColliders(capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.relaxed = options.relax != 0;
-        capacity.touching = touchesItself(topology);
+        prepared->wedges = wedgesOnGrid(mesh, topology, prepared->grid);
+        capacity.touching = !prepared->wedges.empty();
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         auto attempt = tryUntilItFits(mesh, topology, options, *prepared, capacity);
@@ -84,7 +85,7 @@ public:
         Capacities capacity = withColliders(batch->capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.rare = met_.joined(capacity.rare);
-        const Prepared prepared = {batch->grid, {}, batch->sites, batch->vertex_tiles};
+        const Prepared prepared = {batch->grid, {}, batch->sites, batch->vertex_tiles, {}};
         auto attempt = tryUntilItFits(batch->mesh, batch->topology, how, prepared, capacity);
         if (!attempt) return attempt.error();
         attempt->result.setup_ms = millisecondsSince(start) - attempt->result.total_ms;
@@ -97,6 +98,7 @@ private:
         TriangleColumns columns;
         std::vector<Int3> sites;            // that are given, on the grid
         std::vector<uint32_t> vertex_tiles; // where there are several objects
+        std::vector<uint32_t> wedges;       // where the surface touches itself
     };
 
     engine::Result<void> checkOptions(const FractureOptions& options) const {
@@ -283,8 +285,7 @@ private:
         const KnownCounts known = knownCounts(mesh, topology, capacity.sites, capacity.bins, group_size_);
         known.addTo(upload, b.counts, b.args);
         addMesh(upload, mesh, topology, attributes, b);
-        const std::vector<uint32_t> wedges = capacity.touching ? wedgesOf(topology) : std::vector<uint32_t>();
-        upload.add(std::span(wedges), b.wedges);
+        upload.add(std::span(p.wedges), b.wedges);
         addSites(upload, p, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();

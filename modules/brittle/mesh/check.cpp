@@ -37,46 +37,6 @@ bool facesBack(const Index3& a, const Index3& b) {
     return b[(k + 1) % 3] == a[2];
 }
 
-// Boxes of components, measured when they are first asked for.
-class SolidBoxes {
-public:
-    SolidBoxes(const Mesh& mesh, const Components& components) : mesh_(mesh), components_(components) {}
-
-    // Whether walls of two components may face each other: of two solids, or of a solid and a hollow within a third.
-    bool canTouch(uint32_t a, uint32_t b) const {
-        const double va = components_.all[a].volume, vb = components_.all[b].volume;
-        if (a == b || (va <= 0 && vb <= 0)) return false;
-        return (va > 0 && vb > 0) || liesInAnother(va < 0 ? a : b, va < 0 ? b : a);
-    }
-
-private:
-    bool liesInAnother(uint32_t hollow, uint32_t filling) const {
-        const std::vector<Box>& boxes = measured();
-        for (uint32_t c = 0; c < boxes.size(); ++c) {
-            const bool is_larger = components_.all[c].volume > -components_.all[hollow].volume;
-            if (c != filling && is_larger && holds(boxes[c], boxes[hollow])) return true;
-        }
-        return false;
-    }
-    static bool holds(const Box& outer, const Box& inner) {
-        for (size_t k = 0; k < 3; ++k)
-            if (inner.lower[k] < outer.lower[k] || inner.upper[k] > outer.upper[k]) return false;
-        return true;
-    }
-    const std::vector<Box>& measured() const {
-        if (!boxes_.empty()) return boxes_;
-        boxes_.resize(components_.all.size());
-        for (uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-            for (const Double3& corner : cornersOf(mesh_, t))
-                boxes_[components_.of[t]].grow(corner);
-        return boxes_;
-    }
-
-    const Mesh& mesh_;
-    const Components& components_;
-    mutable std::vector<Box> boxes_;
-};
-
 class Inspector {
 public:
     Inspector(const Mesh& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
@@ -223,14 +183,14 @@ std::vector<uint32_t> findDuplicates(const Mesh& mesh) {
 // in no other solid.
 std::vector<uint32_t> findFaultyDuplicates(const Mesh& mesh, const Components& components) {
     std::vector<uint32_t> faulty;
-    const SolidBoxes boxes(mesh, components);
+    const auto is_solid = [&](uint32_t t) { return components.all[components.of[t]].volume > 0; };
     const std::vector<std::array<uint32_t, 2>> coincident = findCoincident(mesh);
     for (size_t k = 0; k < coincident.size(); ++k) {
         const auto& [first, other] = coincident[k];
         const bool is_alone =
             (k == 0 || coincident[k - 1][1] != first) && (k + 1 == coincident.size() || coincident[k + 1][0] != other);
         const bool is_wall = is_alone && facesBack(mesh.triangles[first], mesh.triangles[other]) &&
-                             boxes.canTouch(components.of[first], components.of[other]);
+                             components.of[first] != components.of[other] && is_solid(first) && is_solid(other);
         if (!is_wall) faulty.push_back(other);
     }
     return faulty;

@@ -4,7 +4,9 @@
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/text_reader.h"
 
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -132,6 +134,37 @@ RootNotes colladaRoot(const aiScene& scene) {
 
 // ---- reading --------------------------------------------------------------------------------------------------------------
 
+// Keeps what assimp warns of, but for looks: parts that it leaves out because they are damaged or refer to nothing.
+class WarningList final : public Assimp::LogStream {
+public:
+    void write(const char* message) override {
+        const std::string text = withoutOrigin(oneLine(message));
+        if (isOfLooks(text)) return;
+        if (warnings_.size() < kMost && std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(text);
+    }
+    std::vector<std::string> notes() const {
+        std::vector<std::string> notes;
+        for (const std::string& warning : warnings_)
+            notes.push_back("the reader warns: " + warning);
+        return notes;
+    }
+
+private:
+    // Messages begin with "Error, T0: ".
+    static std::string withoutOrigin(const std::string& text) {
+        const size_t colon = text.find(": ");
+        return colon == text.npos ? text : text.substr(colon + 2);
+    }
+    static bool isOfLooks(const std::string& text) {
+        for (const char* word : {"aterial", "exture", "amera", "ight", "nimation"})
+            if (text.find(word) != text.npos) return true;
+        return false;
+    }
+
+    static constexpr size_t kMost = 8;
+    std::vector<std::string> warnings_;
+};
+
 // No post-processing: its triangulation, for one, asserts on damaged faces.
 engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene, const std::string& ending) {
     if (!scene) return badInput("cannot be read: " + oneLine(importer.GetErrorString()) + "; export it again");
@@ -157,9 +190,26 @@ std::string withoutBlanksBehindTags(std::string_view text) {
     return result;
 }
 
-engine::Result<ImportedMesh> readFromMemory(std::string_view bytes, const std::string& ending) {
+// `read` lets an importer read. Assimp has one logger for all; it is this process's own, which reads one file.
+template <class Read>
+engine::Result<ImportedMesh> readWithNotes(const std::string& ending, const Read& read) {
+    WarningList warnings;
+    constexpr unsigned kSevere = Assimp::Logger::Warn | Assimp::Logger::Err;
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)->attachStream(&warnings, kSevere);
     Assimp::Importer importer;
-    return flatten(importer, importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1), ending);
+    auto mesh = flatten(importer, read(importer), ending);
+    Assimp::DefaultLogger::get()->detachStream(&warnings, kSevere);
+    Assimp::DefaultLogger::kill();
+    if (!mesh) return mesh;
+    for (std::string& note : warnings.notes())
+        mesh->notes.push_back(std::move(note));
+    return mesh;
+}
+
+engine::Result<ImportedMesh> readFromMemory(std::string_view bytes, const std::string& ending) {
+    return readWithNotes(ending, [&](Assimp::Importer& importer) {
+        return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1);
+    });
 }
 
 } // namespace
@@ -171,8 +221,7 @@ engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path, con
         if (!file.is_open() || file.bad()) return badInput("cannot be read; check its permissions");
         return readByAssimp(std::string_view(text), ending);
     }
-    Assimp::Importer importer;
-    return flatten(importer, importer.ReadFile(path.string(), 0), ending);
+    return readWithNotes(ending, [&](Assimp::Importer& importer) { return importer.ReadFile(path.string(), 0); });
 }
 
 engine::Result<ImportedMesh> readByAssimp(std::string_view bytes, const std::string& ending) {
