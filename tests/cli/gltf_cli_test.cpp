@@ -37,7 +37,7 @@ TEST_F(GltfCli, DoctorPrintsNotesOfTheReader) {
 TEST_F(GltfCli, ShatterPrintsNotesOfTheReaderOnStandardError) {
     const Outcome run = runProgram("brittle", {"shatter", cubeWithANote(), "-o", path("out.glb"), "--sites", "4", "--verify"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.err.find("cube.glb: " + note_ + "\n"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("cube.glb: note: " + note_ + "\n"), std::string::npos) << run.err;
 }
 
 TEST_F(GltfCli, AnExtensionThatIsNotReadIsRefusedInOneLine) {

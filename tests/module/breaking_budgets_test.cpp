@@ -108,7 +108,7 @@ TEST(BreakingBudgets, AFineMeshBreaksWithoutBudgetsOfItsOwn) {
     BodyDescription bumpy = ball({0, 1.2, 0}, "glass");
     bumpy.shape.kind = brittle::ShapeKind::Mesh;
     bumpy.shape.file = "builtin:bumpy:5";
-    bumpy.shape.sites = 1;
+    bumpy.shape.cells.sites = 1;
     bumpy.velocity = {0, -6, 0};
     const auto world = worldOf(sceneOf({bumpy}));
     const double mass = massOf(presentBodies(*world));

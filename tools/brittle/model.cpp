@@ -21,7 +21,7 @@ engine::Result<brittle::ImportedMesh> importModel(const std::string& name) {
 void reportReaderNotes(const std::string& name, const std::vector<std::string>& notes) {
     if (!notes.empty()) clearProgress();
     for (const std::string& note : notes)
-        std::fprintf(stderr, "brittle: %s: %s\n", name.c_str(), note.c_str());
+        std::fprintf(stderr, "brittle: %s: note: %s\n", name.c_str(), note.c_str());
 }
 
 engine::Result<brittle::RepairedMesh> loadModel(const std::string& name, bool repair) {
