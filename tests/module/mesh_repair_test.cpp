@@ -108,6 +108,12 @@ TEST(Repair, APartInsideAnotherBecomesAHollow) {
     EXPECT_EQ(outside.notes.turned_hollows.size(), 0u);
 }
 
+// Two bars of one section that overlap by half of their length: the ends of each lie within the other.
+TEST(Repair, SaysThatPartsOverlapWhereThatIsWhatIsWrong) {
+    const std::string refusal = refusalOf(makeCube() + moved(makeCube(), 1, {0.5, 0, 0}));
+    EXPECT_NE(refusal.find("inside another part"), std::string::npos) << refusal;
+}
+
 TEST(Repair, TouchingSolidsStayOutside) {
     const RepairedMesh repaired = mended(turnedOver(makeCube()) + moved(makeCube(), 1, {1, 0.5, 0.25}) +
                                          moved(makeIcosphere(2), 0.1, {5, 0, 0}) + turnedOver(moved(makeCube(), 1, {3, 0, 0})));

@@ -183,6 +183,16 @@ TEST(Collada, BlanksBeforeNumbersAreSkipped) {
     expectBox(arrived(text, ".dae"), {0, 0, 0}, {1, 2, 3});
 }
 
+TEST(Collada, PartsThatReferToNothingAreNoted) {
+    std::string text = collada("<up_axis>Y_UP</up_axis>", {1, 2, 3});
+    const std::string instance = "<instance_geometry url=\"#g\"/>";
+    ASSERT_NE(text.find(instance), text.npos);
+    text.insert(text.find(instance), "<instance_geometry url=\"#missing\"/>");
+    const auto mesh = importMesh(text, ".dae");
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_TRUE(std::ranges::any_of(mesh->notes, [](const std::string& note) { return note.find("missing") != note.npos; }));
+}
+
 TEST(Collada, Utf16IsRefusedByName) {
     std::string wide = "\xFF\xFE";
     for (const char c : collada("", {1, 2, 3}))

@@ -47,7 +47,7 @@ uint32_t usualTriangles(const WorldContents& contents, uint32_t fragments, uint3
     surfaces.resize(std::min<size_t>(surfaces.size(), std::max(fragments / most_fragments, 1u)));
     uint64_t triangles = 0;
     for (const uint32_t surface : surfaces)
-        triangles += usualFragmentTriangles(surface, most_fragments);
+        triangles += usualFragmentTriangles(surface, std::min(most_fragments, fragments));
     return static_cast<uint32_t>(std::max(std::min(triangles, kMostUsualTriangles), kTrianglesOfOne * uint64_t{fragments}));
 }
 

@@ -18,8 +18,10 @@ engine::Error refuse(const std::string& message) { return {engine::ErrorCode::Ba
 
 class Repair {
 public:
-    explicit Repair(WeldedMesh welded)
-        : welded_(std::move(welded)), mesh_(welded_.mesh), diagonal_(measureMesh(mesh_).diagonal) {}
+    // `problem` is what is wrong with the mesh as it is.
+    Repair(WeldedMesh welded, std::string problem)
+        : welded_(std::move(welded)), mesh_(welded_.mesh), diagonal_(measureMesh(mesh_).diagonal),
+          problem_(std::move(problem)) {}
     engine::Result<RepairedMesh> run();
 
 private:
@@ -36,6 +38,7 @@ private:
     WeldedMesh welded_;
     Mesh& mesh_;
     double diagonal_;
+    std::string problem_;
     RepairNotes notes_;
 };
 
@@ -49,7 +52,9 @@ engine::Result<RepairedMesh> Repair::run() {
         if (auto outward = turnPartsOutward(); !outward) return outward.error();
     RepairedMesh repaired{finishMesh(std::move(welded_)), std::move(notes_)};
     const auto report = checkMesh(repaired.model.mesh, repaired.model.topology);
-    if (!report) return refuse(report.error().message);
+    // Overlapping parts that were turned into hollows leave no volume; that is not what is wrong with the model.
+    const bool is_nothing_left = std::abs(repaired.notes.volume_after) < 1e-6 * std::abs(repaired.notes.volume_before);
+    if (!report) return refuse(is_nothing_left ? problem_ : report.error().message);
     return repaired;
 }
 
@@ -150,8 +155,9 @@ engine::Result<RepairedMesh> repairMesh(const ImportedMesh& imported) {
     auto welded = weldMesh(imported);
     if (!welded) return welded.error();
     PreparedMesh as_it_is = finishMesh(*welded);
-    if (inspectMesh(as_it_is.mesh, as_it_is.topology).isSound()) return RepairedMesh{std::move(as_it_is), {}};
-    return Repair(std::move(*welded)).run();
+    const MeshReport report = inspectMesh(as_it_is.mesh, as_it_is.topology);
+    if (report.isSound()) return RepairedMesh{std::move(as_it_is), {}};
+    return Repair(std::move(*welded), report.problems.front()).run();
 }
 
 } // namespace brittle
