@@ -192,7 +192,7 @@ TEST(SmallRefracture, OfBlocksThatTouchAlongAnEdge) {
     const auto result = fracture().shatter(blocks.prepared.mesh, blocks.prepared.topology, whole);
     ASSERT_TRUE(result) << result.error().message;
     ASSERT_EQ(result->fragments.fragments.size(), 2u);
-    for (const size_t k : {0, 1})
+    for (const size_t k : {size_t{0}, size_t{1}})
         EXPECT_EQ(modelFrom(result->fragments, k).prepared.mesh.triangles.size(), 12u);
     expectBreaksAgain(blocks, {2, 3, 20, 200});
 }
