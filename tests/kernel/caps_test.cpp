@@ -301,6 +301,23 @@ TEST(Caps, MayHaveAHundredThousandSides) {
     EXPECT_EQ(run.bad + run.turned_over, 0u);
 }
 
+// A convex outline beside one long side is one mountain, too long for a lane before all workgroups have cut ears. Its sides are
+// the vectors without a common divisor, by their slopes.
+TEST(Caps, MayBeOneMountain) {
+    std::vector<CapPoint> sides;
+    for (int32_t x = 1; x <= 200; ++x)
+        for (int32_t y = 1; y <= 200; ++y)
+            if (std::gcd(x, y) == 1) sides.push_back({x, y});
+    std::ranges::sort(sides, [](const CapPoint& a, const CapPoint& b) { return a[1] * b[0] < b[1] * a[0]; });
+    CapLoop loop = {{0, 0}};
+    for (const CapPoint& side : sides)
+        loop.push_back({loop.back()[0] + side[0], loop.back()[1] + side[1]});
+    const CapPolygon polygon = polygonOf({loop});
+    const CapRun run = capOnDevice({polygon}, kCapBases[0], Through::Vast);
+    expectTriangulated(polygon, run.triangles[0]);
+    EXPECT_EQ(run.bad + run.turned_over, 0u);
+}
+
 // A ray to the right from the corner of one hole runs along the side of the next. Whatever order the sides come in.
 TEST(SmallCaps, OfHolesInARow) {
     std::mt19937 random(1);
