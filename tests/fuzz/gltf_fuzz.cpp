@@ -4,19 +4,11 @@
 #include "modules/brittle/mesh/check.h"
 #include "modules/brittle/mesh/gltf/gltf.h"
 #include "modules/brittle/mesh/prepare.h"
-
-#include <cstdio>
-#include <cstdlib>
+#include "tests/fuzz/require.h"
 
 namespace {
 
 constexpr uint64_t kMostElements = 1 << 14;
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "broken promise: %s\n", what);
-    std::abort();
-}
 
 } // namespace
 

@@ -7,19 +7,11 @@
 #include "modules/brittle/mesh/diagnosis.h"
 #include "modules/brittle/mesh/import.h"
 #include "modules/brittle/mesh/repair/repair.h"
-
-#include <cstdio>
-#include <cstdlib>
+#include "tests/fuzz/require.h"
 
 using namespace brittle;
 
 namespace {
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "broken promise: %s\n", what);
-    std::abort();
-}
 
 void requireOneLine(const engine::Error& error) {
     require(!error.message.empty() && error.message.find('\n') == std::string::npos, "an error is one line");

@@ -2,21 +2,9 @@
 // the file and the line, and what is read is sound and, written, is read as the same.
 #include "modules/brittle/scene/check_scene.h"
 #include "modules/brittle/scene/scene_file.h"
-
-#include <cstdio>
-#include <cstdlib>
+#include "tests/fuzz/require.h"
 
 using namespace brittle;
-
-namespace {
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "broken promise: %s\n", what);
-    std::abort();
-}
-
-} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto scene = readScene(std::string_view(reinterpret_cast<const char*>(data), size), "scene.toml");

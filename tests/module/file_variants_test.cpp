@@ -1,28 +1,15 @@
 // OBJ and STL files as many programs write them: read for what they mean, or refused with the line.
-#include "modules/brittle/mesh/check.h"
-#include "modules/brittle/mesh/import.h"
-#include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "tests/module/file_variant.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <ostream>
 
 using namespace brittle;
 
 namespace {
-
-struct Variant {
-    const char* name;
-    const char* ending;
-    std::string bytes;
-    const char* refusal = ""; // begins so; "" if the file is a tetrahedron
-    const char* note = "";    // part of the only note; "" if no note is expected
-};
-
-void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
 
 const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 const std::string kFaces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
@@ -204,34 +191,9 @@ std::vector<Variant> stlBinaries() {
     };
 }
 
-// Reads the file and checks the mesh, as breaking it would.
-std::string refusalOf(const Variant& file, std::vector<std::string>& notes) {
-    const auto imported = importMesh(file.bytes, file.ending);
-    if (!imported) return imported.error().message;
-    notes = imported->notes;
-    const auto model = prepareMesh(*imported);
-    if (!model) return model.error().message;
-    const auto report = checkMesh(model->mesh, model->topology);
-    if (!report) return report.error().message;
-    EXPECT_NEAR(report->measures.volume, 1.0 / 6, 1e-6);
-    return "";
-}
-
 class FileVariant : public testing::TestWithParam<Variant> {};
 
-TEST_P(FileVariant, IsReadForWhatItMeans) {
-    const Variant& file = GetParam();
-    std::vector<std::string> notes;
-    const std::string refusal = refusalOf(file, notes), expected = file.refusal;
-    EXPECT_EQ(refusal.empty(), expected.empty()) << refusal;
-    EXPECT_NE(refusal.find(expected), std::string::npos) << refusal;
-    const std::string note = notes.empty() ? "" : notes.front();
-    EXPECT_LE(notes.size(), 1u);
-    EXPECT_EQ(note.empty(), *file.note == '\0') << note;
-    EXPECT_NE(note.find(file.note), std::string::npos) << note;
-}
-
-std::string nameOf(const testing::TestParamInfo<Variant>& parameter) { return parameter.param.name; }
+TEST_P(FileVariant, IsReadForWhatItMeans) { expectRead(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Obj, FileVariant, testing::ValuesIn(objVariants()), nameOf);
 INSTANTIATE_TEST_SUITE_P(StlText, FileVariant, testing::ValuesIn(stlTexts()), nameOf);

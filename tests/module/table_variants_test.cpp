@@ -1,28 +1,15 @@
 // PLY and OFF files as many programs write them: read for what they mean, or refused with the line.
-#include "modules/brittle/mesh/check.h"
-#include "modules/brittle/mesh/import.h"
-#include "modules/brittle/mesh/prepare.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/vector_math.h"
+#include "tests/module/file_variant.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ostream>
 
 using namespace brittle;
 
 namespace {
-
-struct Variant {
-    const char* name;
-    const char* ending;
-    std::string bytes;
-    const char* refusal = ""; // part of it; "" if the file is a tetrahedron
-    const char* note = "";    // part of the only note; "" if no note is expected
-};
-
-void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     for (size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
@@ -185,34 +172,9 @@ std::vector<Variant> offVariants() {
     };
 }
 
-// Reads the file and checks the mesh, as breaking it would.
-std::string refusalOf(const Variant& file, std::vector<std::string>& notes) {
-    const auto imported = importMesh(file.bytes, file.ending);
-    if (!imported) return imported.error().message;
-    notes = imported->notes;
-    const auto model = prepareMesh(*imported);
-    if (!model) return model.error().message;
-    const auto report = checkMesh(model->mesh, model->topology);
-    if (!report) return report.error().message;
-    EXPECT_NEAR(report->measures.volume, 1.0 / 6, 1e-6);
-    return "";
-}
-
 class TableVariant : public testing::TestWithParam<Variant> {};
 
-TEST_P(TableVariant, IsReadForWhatItMeans) {
-    const Variant& file = GetParam();
-    std::vector<std::string> notes;
-    const std::string refusal = refusalOf(file, notes), expected = file.refusal;
-    EXPECT_EQ(refusal.empty(), expected.empty()) << refusal;
-    EXPECT_NE(refusal.find(expected), std::string::npos) << refusal;
-    const std::string note = notes.empty() ? "" : notes.front();
-    EXPECT_LE(notes.size(), 1u);
-    EXPECT_EQ(note.empty(), *file.note == '\0') << note;
-    EXPECT_NE(note.find(file.note), std::string::npos) << note;
-}
-
-std::string nameOf(const testing::TestParamInfo<Variant>& parameter) { return parameter.param.name; }
+TEST_P(TableVariant, IsReadForWhatItMeans) { expectRead(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(PlyText, TableVariant, testing::ValuesIn(plyTexts()), nameOf);
 INSTANTIATE_TEST_SUITE_P(PlyBinary, TableVariant, testing::ValuesIn(plyBinaries()), nameOf);

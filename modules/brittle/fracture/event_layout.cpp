@@ -69,7 +69,7 @@ void takeKept(const Input& in, Taker& take) {
     b.vast_offsets = take.words(uint64_t{VAST_HALVES} * c.vast_sides + 1);
     b.vast_caps = take.words(3ull * VAST_HALVES * c.vast_sides);
     b.wedges = take.words(c.touching ? 3ull * c.triangles : 0);
-    if (c.touching) b.polygon_sides = take.words(c.sides);             // islands are told apart by them
+    if (c.touching) b.polygon_sides = take.words(c.sides);             // they separate islands
     if (c.collider_directions != 0) b.corners = take.quads(c.corners); // colliders start from them
 }
 

@@ -1,45 +1,36 @@
 #include "modules/brittle/fracture/wedges.h"
 
-#include <algorithm>
-#include <numeric>
+#include "modules/brittle/mesh/welder.h"
+
+#include <utility>
 
 namespace brittle {
 namespace {
 
-// The mesh on the grid: of vertices of one place one is left, and of triangles those with three places.
+// The mesh on the grid: vertices of one place are one, and triangles with fewer than three places are left out.
 struct SnappedMesh {
     Mesh mesh;
     std::vector<uint32_t> triangles; // of the original
 };
 
-std::vector<Int3> snappedPlaces(const Mesh& mesh, const EventGrid& grid) {
-    std::vector<Int3> places;
-    places.reserve(mesh.positions.size());
-    for (const Float3& p : mesh.positions)
-        places.push_back(snapToGrid(grid, {p[0], p[1], p[2]}));
+// Places on the grid, of at most 24 bits, are floats. `index` leads from the original's vertices to those that are left.
+std::vector<Float3> snapVertices(const Mesh& mesh, const EventGrid& grid, std::vector<uint32_t>& index) {
+    std::vector<Float3> places;
+    Welder welder(mesh.positions.size());
+    for (const Float3& p : mesh.positions) {
+        const Int3 at = snapToGrid(grid, {p[0], p[1], p[2]});
+        index.push_back(
+            welder.indexOf({static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])}, places));
+    }
     return places;
 }
 
-// Returns for every vertex the lowest one at its place.
-std::vector<uint32_t> lowestAtPlace(const std::vector<Int3>& places) {
-    std::vector<uint32_t> order(places.size()), lowest(places.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(),
-              [&](uint32_t a, uint32_t b) { return places[a] != places[b] ? places[a] < places[b] : a < b; });
-    for (size_t k = 0; k < order.size(); ++k) {
-        const bool is_same = k > 0 && places[order[k]] == places[order[k - 1]];
-        lowest[order[k]] = is_same ? lowest[order[k - 1]] : order[k];
-    }
-    return lowest;
-}
-
-SnappedMesh snappedMesh(const Mesh& mesh, const std::vector<Int3>& places, const std::vector<uint32_t>& lowest) {
+SnappedMesh snappedMesh(const Mesh& mesh, std::vector<Float3> places, const std::vector<uint32_t>& index) {
     SnappedMesh snapped;
-    for (const Int3& p : places)
-        snapped.mesh.positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+    snapped.mesh.positions = std::move(places);
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
-        const Index3 corners = {lowest[a], lowest[b], lowest[c]};
+        const Index3 corners = {index[a], index[b], index[c]};
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
         snapped.mesh.triangles.push_back(corners);
         snapped.triangles.push_back(t);
@@ -50,12 +41,11 @@ SnappedMesh snappedMesh(const Mesh& mesh, const std::vector<Int3>& places, const
 } // namespace
 
 std::vector<uint32_t> wedgesOnGrid(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid) {
-    const std::vector<Int3> places = snappedPlaces(mesh, grid);
-    const std::vector<uint32_t> lowest = lowestAtPlace(places);
-    const bool is_as_it_is =
-        std::ranges::adjacent_find(lowest, [](uint32_t a, uint32_t b) { return b != a + 1; }) == lowest.end();
+    std::vector<uint32_t> index;
+    std::vector<Float3> places = snapVertices(mesh, grid, index);
+    const bool is_as_it_is = places.size() == mesh.positions.size();
     if (is_as_it_is && !touchesItself(topology)) return {};
-    const SnappedMesh snapped = snappedMesh(mesh, places, lowest);
+    const SnappedMesh snapped = snappedMesh(mesh, std::move(places), index);
     const MeshTopology on_grid = buildTopology(snapped.mesh);
     if (!touchesItself(on_grid)) return {};
     const std::vector<uint32_t> found = wedgesOf(on_grid);

@@ -31,7 +31,7 @@ std::vector<std::array<uint32_t, 2>> findCoincident(const Mesh& mesh) {
     return pairs;
 }
 
-// Of triangles with the same corners: whether these run the other way round.
+// Returns whether two triangles with the same corners run opposite ways.
 bool facesBack(const Index3& a, const Index3& b) {
     const size_t k = static_cast<size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
     return b[(k + 1) % 3] == a[2];
@@ -126,9 +126,9 @@ void Inspector::countEdges() {
 void Inspector::countTriangles(const Components& components) {
     for (size_t t = 0; t < mesh_.triangles.size(); ++t)
         report_.flat_triangles += isFlat(cornersOf(mesh_, t)) ? 1 : 0;
-    const std::vector<uint32_t> faulty = findFaultyDuplicates(mesh_, components);
+    const auto [faulty, walls] = findDuplicates(mesh_, components);
     report_.duplicate_triangles = static_cast<uint32_t>(faulty.size());
-    report_.touching_triangles = static_cast<uint32_t>(findDuplicates(mesh_).size() - faulty.size());
+    report_.touching_triangles = walls;
     if (faulty.empty()) return;
     complain(report_.duplicate_triangles, "doubled triangle", middleOf(cornersOf(mesh_, faulty.front())),
              "remove doubled faces, or give the sheet a thickness");
@@ -172,17 +172,8 @@ void Inspector::checkNesting(const TriangleTree& tree, const Components& compone
 
 } // namespace
 
-std::vector<uint32_t> findDuplicates(const Mesh& mesh) {
-    std::vector<uint32_t> duplicates;
-    for (const auto& [first, other] : findCoincident(mesh))
-        duplicates.push_back(other);
-    return duplicates;
-}
-
-// A wall of a hollow is doubled by a solid that fills the hollow. A surface with two sides everywhere looks the same, but lies
-// in no other solid.
-std::vector<uint32_t> findFaultyDuplicates(const Mesh& mesh, const Components& components) {
-    std::vector<uint32_t> faulty;
+Duplicates findDuplicates(const Mesh& mesh, const Components& components) {
+    Duplicates found;
     const auto is_solid = [&](uint32_t t) { return components.all[components.of[t]].volume > 0; };
     const std::vector<std::array<uint32_t, 2>> coincident = findCoincident(mesh);
     for (size_t k = 0; k < coincident.size(); ++k) {
@@ -191,9 +182,12 @@ std::vector<uint32_t> findFaultyDuplicates(const Mesh& mesh, const Components& c
             (k == 0 || coincident[k - 1][1] != first) && (k + 1 == coincident.size() || coincident[k + 1][0] != other);
         const bool is_wall = is_alone && facesBack(mesh.triangles[first], mesh.triangles[other]) &&
                              components.of[first] != components.of[other] && is_solid(first) && is_solid(other);
-        if (!is_wall) faulty.push_back(other);
+        if (is_wall)
+            ++found.walls;
+        else
+            found.faulty.push_back(other);
     }
-    return faulty;
+    return found;
 }
 
 MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology) { return Inspector(mesh, topology).run(); }

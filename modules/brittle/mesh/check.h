@@ -28,11 +28,13 @@ struct MeshReport {
     bool isSound() const { return problems.empty(); }
 };
 
-// Triangles that have the same three corners as an earlier one, whichever way they face.
-std::vector<uint32_t> findDuplicates(const Mesh& mesh);
-
-// The same without walls between solids that touch: two triangles of two components that face each other.
-std::vector<uint32_t> findFaultyDuplicates(const Mesh& mesh, const Components& components);
+// Triangles that have the same three corners as an earlier one. Two that face each other and belong to two solids are a wall
+// between solids that touch, and are no fault.
+struct Duplicates {
+    std::vector<uint32_t> faulty;
+    uint32_t walls = 0;
+};
+Duplicates findDuplicates(const Mesh& mesh, const Components& components);
 
 // Looks for everything that may be wrong.
 MeshReport inspectMesh(const Mesh& mesh, const MeshTopology& topology);

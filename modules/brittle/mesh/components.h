@@ -12,7 +12,7 @@ constexpr uint32_t kNoTriangle = 0xffffffff;
 struct Component {
     double volume = 0; // negative for the wall of a cavity
     uint32_t largest_triangle = 0;
-    // The largest triangle of those that face most along +x, -x, +y, -y, +z, -z; kNoTriangle where there is none.
+    // The largest triangle of those that face most along +x, -x, +y, -y, +z, -z; kNoTriangle if no triangle does.
     std::array<uint32_t, 6> facing = {kNoTriangle, kNoTriangle, kNoTriangle, kNoTriangle, kNoTriangle, kNoTriangle};
 };
 

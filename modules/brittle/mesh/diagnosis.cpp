@@ -175,7 +175,7 @@ void Diagnostician::listTriangles() {
 }
 
 void Diagnostician::listDuplicates() {
-    for (const uint32_t t : findFaultyDuplicates(mesh_, findComponents(mesh_, topology_)))
+    for (const uint32_t t : findDuplicates(mesh_, findComponents(mesh_, topology_)).faulty)
         found_.duplicates.push_back(place(middleOf(cornersOf(mesh_, t))));
 }
 
