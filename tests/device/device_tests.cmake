@@ -54,7 +54,7 @@ list(JOIN kernel_names "\n" kernel_names)
 file(WRITE ${CMAKE_BINARY_DIR}/kernel_names.txt "${kernel_names}\n")
 set(empty_kernels ${CMAKE_CURRENT_SOURCE_DIR}/device/empty_kernels.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/kernel_names.txt)
 device_test(empty_kernels ${empty_kernels} solve_contacts bounce_rest time_rest claim_strikes wake_struck weigh_fragments write_draws
-    bound_partings check_breaking measure_films)
+    bound_partings check_breaking)
 device_test(empty_kernels_all ${empty_kernels})
 set_tests_properties(empty_kernels_all PROPERTIES LABELS long)
 

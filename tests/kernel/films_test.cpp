@@ -1,4 +1,4 @@
-// measure_films, join_films, settle_films and merge_films: pieces as thin as a step of the grid become part of what they lie
+// join_films, settle_films and merge_films: pieces as thin as a step of the grid become part of what they lie
 // against, and no volume is lost.
 #include "tests/kernel/device_event.h"
 #include "tests/support/shapes.h"

@@ -108,8 +108,6 @@ struct NestPush {
 void recordSettling(const Event& e, float least, bool is_last) {
     const auto& b = e.b;
     Recorder& r = e.record;
-    r.runGroups("measure_films", r.groupsOf(COUNT_FILMS), e.grid.unit(),
-                {r.counts(), b.films, b.component_start, b.values, b.pieces, b.positions, b.records});
     if (is_last)
         r.runGroups("nest_films", r.groupsOf(COUNT_FILMS), NestPush{e.grid.unit(), EventGrid::kStep, least},
                     {r.counts(), b.films, b.component_start, b.values, b.pieces, b.positions, b.records, b.fates});
