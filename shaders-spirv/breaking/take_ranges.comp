@@ -1,10 +1,10 @@
 // Takes ranges from the pools for objects that break, all that an object asks for or nothing: it becomes all of its fragments or
 // stays whole. Objects and their requests are served in order, each from the first range that is large enough.
 //
-// One workgroup does it, a lane a pool: what an object finds depends on all that came before it, and on all pools. Over each list
-// lies a tree of the largest size under every eight, so that a search takes four looks at eight; and since it has then seen what
-// else there is beside its way, the tree is right again after a store a level. That is one turn of a loop a request, where walks
-// along lists would take more than Mesa's software device allows (shaders-spirv/README.md). The other lanes help to make the
+// One workgroup serves them, with a lane for each pool: what an object finds depends on all that came before it, and on all pools.
+// A tree over each list holds the largest size below every eight nodes. A search looks at eight nodes five times. It has then
+// seen what lies beside its path, so a store a level keeps the tree right. A request takes one turn of a loop; a walk along the
+// list would take more turns than Mesa's software device allows (shaders-spirv/README.md). The other lanes help to make the
 // trees and to pack the lists.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -33,10 +33,11 @@ layout(push_constant) uniform Push {
 };
 #include "lib/pool_table.glsl"
 
-// Largest sizes of a pool's ranges: below every eight ranges, every 64, and every 512.
-#define EIGHTS 0u
-#define SQUARES 512u
-#define CUBES 576u
+// Largest sizes of a pool's ranges: below every 64 ranges, every 512, and every 4096. Those below every eight lie in the half of
+// the table to which the list goes in the end.
+#define SQUARES 0u
+#define CUBES 512u
+#define TOPS 576u
 #define TREE 584u
 shared uint largest[POOLS * TREE];
 shared uint missing[POOLS]; // of the owner that is served
@@ -52,6 +53,8 @@ void syncBuffers() {
 
 uint sizeAt(uint at, PoolTable table) { return at < table.count ? free_ranges[table.from + at].y : 0u; }
 
+uint eightAt(uint at, PoolTable table) { return 8u * at < table.count ? free_ranges[table.to + at].x : 0u; }
+
 // Sums up one level in the next, as far as searches may look: eights of nodes.
 void joinLevel(uint lane, uint level, uint next, uint nodes) {
     for (uint k = lane; k < nodes; k += LANES) {
@@ -64,16 +67,22 @@ void joinLevel(uint lane, uint level, uint next, uint nodes) {
 
 void makeTree(uint lane, uint pool) {
     PoolTable table = tableOf(pool);
-    uint root = pool * TREE, squares = (table.count + 63u) / 64u, all_squares = (squares + 7u) / 8u * 8u;
-    for (uint k = lane; k < 8u * all_squares; k += LANES) {
+    uint root = pool * TREE, eights = (table.count + 7u) / 8u, tops = (table.count + 4095u) / 4096u;
+    for (uint k = lane; k < eights; k += LANES) {
         uint most = 0u;
         [[unroll]] for (uint child = 0u; child < 8u; child++) most = max(most, sizeAt(8u * k + child, table));
-        largest[root + EIGHTS + k] = most;
+        free_ranges[table.to + k].x = most;
     }
-    if (lane < 8u) largest[root + CUBES + lane] = 0u;
+    if (lane < 8u) largest[root + TOPS + lane] = 0u;
+    syncBuffers();
+    for (uint k = lane; k < 64u * tops; k += LANES) {
+        uint most = 0u;
+        [[unroll]] for (uint child = 0u; child < 8u; child++) most = max(most, eightAt(8u * k + child, table));
+        largest[root + SQUARES + k] = most;
+    }
     sync();
-    joinLevel(lane, root + EIGHTS, root + SQUARES, all_squares);
-    joinLevel(lane, root + SQUARES, root + CUBES, all_squares / 8u);
+    joinLevel(lane, root + SQUARES, root + CUBES, 8u * tops);
+    joinLevel(lane, root + CUBES, root + TOPS, tops);
 }
 
 // The first of eight that is large enough, 8 if none is, and the largest of the others.
@@ -93,6 +102,12 @@ Choice chooseNode(uint first, uint size) {
     return choice;
 }
 
+Choice chooseEight(uint first, uint size, PoolTable table) {
+    Choice choice = Choice(8u, 0u);
+    [[unroll]] for (uint k = 0u; k < 8u; k++) weigh(choice, k, eightAt(first + k, table), size);
+    return choice;
+}
+
 Choice chooseRange(uint first, uint size, PoolTable table) {
     Choice choice = Choice(8u, 0u);
     [[unroll]] for (uint k = 0u; k < 8u; k++) weigh(choice, k, sizeAt(first + k, table), size);
@@ -107,22 +122,26 @@ struct Taken {
 
 // Takes elements from the front of the first range that has as many.
 Taken take(uint root, uint size, PoolTable table) {
-    Choice top = chooseNode(root + CUBES, size);
-    uint cube = min(top.at, 7u);
-    Choice middle = chooseNode(root + SQUARES + 8u * cube, size);
-    uint square = 8u * cube + min(middle.at, 7u);
-    Choice low = chooseNode(root + EIGHTS + 8u * square, size);
-    uint eight = 8u * square + min(low.at, 7u);
-    Choice leaf = chooseRange(8u * eight, size, table);
-    uint at = 8u * eight + min(leaf.at, 7u);
-    if (top.at == 8u || size == 0u) return Taken(NO_INDEX, 0u, 0u);
+    Choice of_tops = chooseNode(root + TOPS, size);
+    uint top = min(of_tops.at, 7u);
+    Choice of_cubes = chooseNode(root + CUBES + 8u * top, size);
+    uint cube = 8u * top + min(of_cubes.at, 7u);
+    Choice of_squares = chooseNode(root + SQUARES + 8u * cube, size);
+    uint square = 8u * cube + min(of_squares.at, 7u);
+    Choice of_eights = chooseEight(8u * square, size, table);
+    uint eight = 8u * square + min(of_eights.at, 7u);
+    Choice of_ranges = chooseRange(8u * eight, size, table);
+    uint at = 8u * eight + min(of_ranges.at, 7u);
+    if (of_tops.at == 8u || size == 0u) return Taken(NO_INDEX, 0u, 0u);
     uvec2 range = free_ranges[table.from + at];
     free_ranges[table.from + at] = range + uvec2(size, -size);
-    uint most = max(range.y - size, leaf.beside);
-    largest[root + EIGHTS + eight] = most;
-    most = max(most, low.beside);
+    uint most = max(range.y - size, of_ranges.beside);
+    free_ranges[table.to + eight].x = most;
+    most = max(most, of_eights.beside);
     largest[root + SQUARES + square] = most;
-    largest[root + CUBES + cube] = max(most, middle.beside);
+    most = max(most, of_squares.beside);
+    largest[root + CUBES + cube] = most;
+    largest[root + TOPS + top] = max(most, of_cubes.beside);
     return Taken(at, range.x, range.y - size);
 }
 
@@ -130,10 +149,12 @@ Taken take(uint root, uint size, PoolTable table) {
 void giveBack(uint root, uint at, uint size, PoolTable table) {
     uvec2 range = free_ranges[table.from + at] - uvec2(size, -size);
     free_ranges[table.from + at] = range;
-    uint eight = root + EIGHTS + at / 8u, square = root + SQUARES + at / 64u, cube = root + CUBES + at / 512u;
-    largest[eight] = max(largest[eight], range.y);
+    uint eight = table.to + at / 8u, square = root + SQUARES + at / 64u;
+    uint cube = root + CUBES + at / 512u, top = root + TOPS + at / 4096u;
+    free_ranges[eight].x = max(free_ranges[eight].x, range.y);
     largest[square] = max(largest[square], range.y);
     largest[cube] = max(largest[cube], range.y);
+    largest[top] = max(largest[top], range.y);
 }
 
 struct Owner {

@@ -18,7 +18,7 @@ GPU_NAMESPACE_BEGIN
 #define POOL_TRIANGLES 3 /* of surfaces */
 
 // The most that the kernels can walk through before loop turns run out (shaders-spirv/README.md), whatever their lanes.
-#define POOL_MOST_FREE 4096 /* ranges: four levels of eight */
+#define POOL_MOST_FREE 32768 /* ranges: five levels of eight */
 #define POOL_MOST_RETURNED 8192
 #define POOL_MOST_OWNERS 1024
 #define POOL_MOST_REQUESTS 8192

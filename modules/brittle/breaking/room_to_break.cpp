@@ -16,7 +16,7 @@ using engine::Error, engine::ErrorCode;
 
 constexpr uint32_t kFragments = 1024, kFacesOfOne = 24, kTrianglesOfOne = 96;
 constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
-constexpr uint64_t kMostUsualTriangles = 1'000'000; // that take 96 MB
+constexpr uint64_t kMostUsualTriangles = 1'390'000; // 96 bytes each: as many as fit in 128 MiB, which every device binds at once
 
 uint32_t timesRounded(uint32_t count, uint32_t each) { return (count + each - 1) / each; }
 
@@ -48,7 +48,9 @@ uint32_t usualTriangles(const WorldContents& contents, uint32_t fragments, uint3
     uint64_t triangles = 0;
     for (const uint32_t surface : surfaces)
         triangles += usualFragmentTriangles(surface, std::min(most_fragments, fragments));
-    return static_cast<uint32_t>(std::max(std::min(triangles, kMostUsualTriangles), kTrianglesOfOne * uint64_t{fragments}));
+    triangles = std::max(triangles, kTrianglesOfOne * uint64_t{fragments});
+    const uint64_t left = kMostUsualTriangles - std::min<uint64_t>(kMostUsualTriangles, contents.surface_vertices.size() / 3);
+    return static_cast<uint32_t>(std::min(triangles, std::max<uint64_t>(left, 1)));
 }
 
 uint32_t chosen(uint32_t given, uint32_t usual) { return given != 0 ? given : usual; }
