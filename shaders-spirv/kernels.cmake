@@ -178,7 +178,7 @@ kernel(primitives/weld_points.comp NAME weld_corners DEFINES WORDS=4 STRIDE=4)
 kernel(primitives/weld_points.comp NAME weld_sides DEFINES WORDS=2 STRIDE=2)
 
 # What becomes of what is small, and what the host hears of blows.
-foreach(name IN ITEMS step_dust allot_dust emit_dust age_debris list_debris wake_debris expire_debris find_impacts tell_impacts)
+foreach(name IN ITEMS step_dust allot_dust emit_dust age_debris make_room list_debris tell_gone wake_debris expire_debris find_impacts tell_impacts)
     kernel(effects/${name}.comp)
 endforeach()
 

@@ -254,7 +254,8 @@ typedef enum BrittleEffect {
     BRITTLE_EFFECT_DUST = 1 << 8,            /* what is too small for a body flies on as particles */
     BRITTLE_EFFECT_DEBRIS_LIFETIME = 1 << 9, /* small fragments at rest fade and go */
     BRITTLE_EFFECT_EVENTS = 1 << 10,         /* the host can ask what broke */
-    BRITTLE_EFFECT_DRAG = 1 << 11            /* air */
+    BRITTLE_EFFECT_DRAG = 1 << 11,           /* air */
+    BRITTLE_EFFECT_DEBRIS_ROOM = 1 << 12     /* where room for fragments runs short, the smallest and oldest at rest go */
 } BrittleEffect;
 
 /* Room. 0: chosen by what the world begins with; pairs and contacts then grow where they must. BAD_VALUE for more than 1e7, or 1e6
@@ -262,7 +263,8 @@ typedef enum BrittleEffect {
 typedef struct BrittleBudget {
     uint32_t pairs; /* of convex pieces that are near each other */
     uint32_t contacts;
-    uint32_t fragments;          /* that there are at a time; 1024 */
+    uint32_t fragments; /* that there are at a time; 4 for each body that can break, from 1024 to 8192. A part of them is
+                           kept for bodies that have not broken yet: where room runs short, bodies break into fewer */
     uint32_t fragment_faces;     /* of their colliders */
     uint32_t fragment_triangles; /* of their surfaces */
     uint32_t most_fragments;     /* of one body, no more than breaking_sites; 256 */
@@ -293,7 +295,7 @@ typedef struct BrittleWorldDef {
 } BrittleWorldDef;
 
 /* Earth's gravity, 60 steps a second, 4 substeps; gravity, contacts, friction, ccd, sleeping, impact_fracture, refracture,
- * events. */
+ * events, debris_room. */
 BRITTLE_API BrittleWorldDef brittleDefaultWorldDef(void);
 /* A world to be filled: see brittleStartWorld. Errors: BAD_VALUE. */
 BRITTLE_API BrittleResult brittleCreateWorld(BrittleContext* context, const BrittleWorldDef* def, BrittleWorld* world);
@@ -376,6 +378,10 @@ BRITTLE_API BrittleResult brittleStartWorld(BrittleContext* context, BrittleWorl
 /* [queue] Makes so many steps and waits: 0 to 1,000,000. Errors: CAPACITY where a budget that was given is too small: the steps
  * from that one on have not been made; BAD_VALUE, once, where the motion of a body outgrew its numbers: it was stopped. */
 BRITTLE_API BrittleResult brittleStep(BrittleContext* context, BrittleWorld world, uint32_t steps);
+/* [queue] Raises the budgets of pairs and contacts of a running world; 0: room is made as it is needed. A step that failed for want of
+ * them can be made after that. The state stays as it is. Buffers for drawing are other ones then (`generation`). Errors: BAD_VALUE
+ * for less than there is room for, CAPACITY for what the device cannot do: the budgets stay as they were. */
+BRITTLE_API BrittleResult brittleSetBudget(BrittleContext* context, BrittleWorld world, uint32_t pairs, uint32_t contacts);
 
 /* Records so many steps, 1 to 1000, into a primary command buffer of the host's that is being recorded, from a pool of the
  * context's queue family, outside of render passes. They come after all that was submitted or recorded before and before all
@@ -427,10 +433,12 @@ typedef enum BrittleOutcome {
     BRITTLE_WHOLE_ONE_PIECE = 3, /* all of it is one cell's */
     BRITTLE_WHOLE_FAILED = 4,    /* the budget of a step was too small, or the cut met what it cannot cut */
     BRITTLE_WHOLE_TOO_LARGE = 5, /* no step has room for it: it never breaks */
-    BRITTLE_WHOLE_NO_PAIRS = 6   /* budgets of pairs or contacts have no room for what its fragments are expected to have */
+    BRITTLE_WHOLE_NO_PAIRS = 6,  /* budgets of pairs or contacts have no room for what its fragments are expected to have */
+    BRITTLE_GONE = 7             /* it did not break: a fragment left the world, by debris_lifetime or debris_room; `position` is
+                                    its center of mass, and what tells of a blow is 0 */
 } BrittleOutcome;
 
-/* A body that broke, or would have. */
+/* A body that broke, or would have; or a fragment that left the world. */
 typedef struct BrittleBreak {
     BrittleBody body;      /* stale from then on, if it broke */
     BrittleBody hit_by;    /* all zeros: brittleDamage */
@@ -476,7 +484,7 @@ typedef struct BrittleCounts {
     uint32_t pairs, contacts;
     uint32_t broken;       /* bodies since the beginning */
     uint32_t fragments;    /* that they became; some may have broken again */
-    uint32_t expired;      /* fragments that have gone after their time */
+    uint32_t expired;      /* fragments that have gone, after their time or to make room */
     uint32_t breaks_lost;  /* events so far that came to nobody: the device keeps the last 1024 that were not asked for, also by brittleGetCounts,
                               the library 65,536 */
     uint32_t impacts_lost; /* likewise */

@@ -1,6 +1,6 @@
-// Which bodies break in this step, and how: all whose blow was chosen, in their order, as long as there is room for what they
-// make. One workgroup. What there is no room for now waits for the next step, held where it is; what there never will be room for
-// does not break, and the host is told.
+// Which bodies break in this step, and how: all whose blow was chosen, in their order, as long as the step has room for what they
+// make. One workgroup. What the step has no room for waits for the next step, held where it is. What no step has room for, or the
+// world, does not break, and the host is told.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -12,6 +12,7 @@
 #include "lib/radial_law.glsl"
 #include "shared/body.h"
 #include "shared/breaking.h"
+#include "shared/pool.h"
 #include "shared/scene.h"
 #include "shared/solver.h"
 #include "shared/strike.h"
@@ -36,8 +37,9 @@ UPDATES(10, BrokenBody, broken);
 UPDATES(11, uint, counts); // of the event
 UPDATES(12, uint, args);
 READS(13, SceneVertex, vertices);
+READS(14, PoolHeader, pools);
 #if STRIKES
-UPDATES(14, StrikeRecord, records);
+UPDATES(15, StrikeRecord, records);
 #endif
 layout(push_constant) uniform Push {
     uint most_bodies, most_triangles, most_sites; // of one step
@@ -46,6 +48,8 @@ layout(push_constant) uniform Push {
     uint most_pairs, most_contacts; // that the world has room for; NO_INDEX: it makes more where it must
     float duration, margin;         // s, of a step; m, at which contacts are looked for
     float pause;                    // s, in which what could not be broken is left alone
+    uint kept_for_each;  // fragments, for each body of the scene that has not broken yet
+    uint kept_for_whole; // for all of them together, by fragments that break again
 };
 #include "lib/origin.glsl"
 #include "lib/publish.glsl"
@@ -246,14 +250,24 @@ void countFragments(uint k, uint body) {
 }
 
 #include "lib/expected_pairs.glsl"
+#include "lib/fragment_share.glsl"
+
+uvec2 lackedBy(uint asked, uint room) { return uvec2(asked - min(asked, room)); }
+
+uvec2 lackedBy(uvec2 asked, uvec2 room) { return asked - min(asked, room); }
+
+uvec2 lackOf(uint k, uint why, uvec2 room) {
+    if (why == WHOLE_NO_ROOM) return lackedBy(min(sites_of[k], most_fragments), limit_of[k]);
+    if (why == WHOLE_NO_PAIRS) return lackedBy(pairs_of[k], room);
+    return lackedBy(uvec2(trianglesOf(listed[k]), sites_of[k]), uvec2(most_triangles, most_sites));
+}
 
 // Of what there is no room for, one a step is told: it stands behind what breaks. What no step has room for never breaks.
 void tellUnfit(uint k, uint why, uint at, uvec2 room) {
     bool never = why == WHOLE_TOO_LARGE;
     breakable[listed[k]].form.w = never ? kForEver : float(steps[STEPS_MADE] + 1u) * duration + pause;
     admitted[k] = at;
-    uvec2 asked = never ? uvec2(trianglesOf(listed[k]), sites_of[k]) : pairs_of[k];
-    lacked = asked - min(asked, never ? uvec2(most_triangles, most_sites) : room);
+    lacked = lackOf(k, why, room);
     counts[STATUS_UNFIT] = why;
 }
 
@@ -265,11 +279,11 @@ void admit() {
     uvec3 left = uvec3(min(most_bodies, uint(MOST_BREAKING)), most_triangles, most_sites), taken = uvec3(0u);
     for (uint k = 0u; k < found; k++) {
         uvec3 asked = uvec3(1u, trianglesOf(listed[k]), sites_of[k]);
-        bool fits = all(lessThanEqual(taken + asked, left)) && all(lessThanEqual(paired + pairs_of[k], room));
+        bool fits = isRoomFor(k) && all(lessThanEqual(taken + asked, left)) && all(lessThanEqual(paired + pairs_of[k], room));
         bool never = any(greaterThan(asked, left)), crowded = any(greaterThan(pairs_of[k], room));
-        if (never || crowded) {
+        if (never || crowded || !isRoomFor(k)) {
             unfit = k;
-            why = never ? WHOLE_TOO_LARGE : WHOLE_NO_PAIRS;
+            why = never ? WHOLE_TOO_LARGE : isRoomFor(k) ? WHOLE_NO_PAIRS : WHOLE_NO_ROOM;
         }
         admitted[k] = fits ? taken.x : NO_INDEX;
         if (fits) {
@@ -374,6 +388,10 @@ void main() {
         countFragments(k, listed[k]);
         neighbors_of[k] = uvec2(0u);
     }
+    countWhole(lane);
+    if (lane == 0u) shareRoom();
+    barrier();
+    for (uint k = lane; k < found; k += GROUP_SIZE) cutToShare(k, listed[k]);
     barrier();
     if (isRoomForPairsFixed()) countNeighbors(lane);
     barrier();
@@ -383,7 +401,7 @@ void main() {
     barrier();
     for (uint k = lane; k < found; k += GROUP_SIZE) {
         if (admitted[k] == NO_INDEX) continue;
-        Rays rays = isRadial(listed[k]) ? raysOf(k, listed[k], most_fragments) : Rays(0u, 0u, 0.0, 0.0);
+        Rays rays = isRadial(listed[k]) ? raysOf(k, listed[k], limit_of[k]) : Rays(0u, 0u, 0.0, 0.0);
         setBroken(admitted[k], listed[k], sites_of[k], paid_of[k], rays);
 #if STRIKES
         records[listed[k]].what.x = 0u; // another blow that broke it first is as good

@@ -52,8 +52,8 @@ BreakEvent eventOf(uint k) {
     event.what = uvec4(steps[STEPS_MADE], body, hit.ids.y, breakable[body].surface.w);
     uint cells = why == 0u ? owner_start[k + 1u] - owner_start[k] : 0u, small = why == 0u ? uint(sizes[k].dust_cells) : 0u;
     event.made = uvec4(cells - small, why, why == WHOLE_FAILED ? firstNeeded() : uvec2(why == 0u ? ledger[k].outcome.y : 0u, 0u));
-    bool unfit = why == WHOLE_NO_PAIRS || why == WHOLE_TOO_LARGE;
-    event.lacked = why == WHOLE_NO_ROOM ? lacking[k] : unfit ? uvec4(hit.share.zw, 0u, 0u) : uvec4(0u);
+    bool untried = k >= counts[COUNT_BREAKING];
+    event.lacked = untried ? uvec4(hit.share.zw, 0u, 0u) : why == WHOLE_NO_ROOM ? lacking[k] : uvec4(0u);
     event.sector = ivec4(bodies[body].sector.xyz + sectors, int(small));
     event.offset = vec4(offsetWithin(offset, sectors), why == 0u ? densityOf(body) * sizes[k].dust : 0.0);
     event.along = vec4(hit.along.xyz, hit.share.y);

@@ -51,4 +51,5 @@ void main() {
     setGroups(DEBRIS_PAIR_ARGUMENTS, uvec3(world_args[pairs], world_args[pairs + 1u], world_args[pairs + 2u]));
     setGroups(DEBRIS_GO_ARGUMENTS, uvec3((listed + flat_size - 1u) / flat_size, 1u, 1u));
     setGroups(DEBRIS_RETURN_ARGUMENTS, uvec3(POOLS, 1u, 1u));
+    setGroups(DEBRIS_TELL_ARGUMENTS, uvec3(1u));
 }

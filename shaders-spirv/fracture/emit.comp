@@ -1,6 +1,6 @@
-// Writes the triangles into the scene's pools: the model's own surface, faces of earlier cuts, inner ones. Outer corners take normal and texture coordinates from the
-// mesh triangle that they lie on, by their barycentric place in it; inner ones get the bisector's normal and texture
-// coordinates in model units along it.
+// Writes the triangles into the scene's pools: the model's own surface, faces of earlier cuts, inner ones. Outer corners take normal
+// and texture coordinates from the mesh triangle that they lie on, by their barycentric place in it. Inner corners get the
+// bisector's normal, and texture coordinates in model units along it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -19,13 +19,16 @@ READS(9, uvec4, demand_offsets);
 READS(10, uvec2, fates);
 READS(11, float, mesh_positions);
 READS(12, uint, triangles);
-READS(13, float, corner_attributes); // normal, uv
+READS(13, float, corner_attributes); // normal, uv, of the corners of mesh triangles from first_source on
 WRITES(14, float, vertices);
 WRITES(15, uint, indices);
-// A binding may be smaller than the pools: this dispatch writes the triangles of one part of them, to which it is bound.
+// A binding may be smaller than the pools and the mesh: a dispatch writes triangles of one part of the pools, from one part of the
+// mesh. Inner triangles come with the first part of the mesh.
 layout(push_constant) uniform Push {
     uint first_triangle;
     uint triangle_count;
+    uint first_source;
+    uint source_count;
 };
 
 vec3 modelVertex(uint v) { return vec3(mesh_positions[3u * v], mesh_positions[3u * v + 1u], mesh_positions[3u * v + 2u]); }
@@ -79,7 +82,8 @@ void main() {
     uvec4 piece = pieces[t];
     uint source = sources[t] & ~INNER_BIT;
     bool cap = (sources[t] & INNER_BIT) != 0u;
-    uint m = cap ? 0u : source;
+    uint m = cap ? 0u : source, from = m - first_source;
+    if (cap ? first_source != 0u : from >= source_count) return;
     vec3 a = modelVertex(triangles[3u * m]), b = modelVertex(triangles[3u * m + 1u]), d = modelVertex(triangles[3u * m + 2u]);
     vec3 p0 = positions[piece.x].xyz, p1 = positions[piece.y].xyz, p2 = positions[piece.z].xyz;
     vec3 flat_normal = normalOf(p1 - p0, p2 - p0);
@@ -91,8 +95,9 @@ void main() {
         vec3 n = vec3(0.0);
         vec2 uv = vec2(0.0);
         for (uint s = 0u; s < ROLLED(3); s++) {
-            n += weight[s] * vec3(cornerAttribute(3u * m + s, 0u), cornerAttribute(3u * m + s, 1u), cornerAttribute(3u * m + s, 2u));
-            uv += weight[s] * vec2(cornerAttribute(3u * m + s, 3u), cornerAttribute(3u * m + s, 4u));
+            uint at = 3u * from + s;
+            n += weight[s] * vec3(cornerAttribute(at, 0u), cornerAttribute(at, 1u), cornerAttribute(at, 2u));
+            uv += weight[s] * vec2(cornerAttribute(at, 3u), cornerAttribute(at, 4u));
         }
         float length_ = length(n);
         n = length_ > 1e-6 ? n / length_ : flat_normal;

@@ -133,6 +133,8 @@ struct BreakEvent {
 #define WHOLE_FAILED 4    /* the step's event of fracture had no room for all that it met, or met what it cannot cut */
 #define WHOLE_TOO_LARGE 5 /* no step has room for its surface or its sites: it never breaks */
 #define WHOLE_NO_PAIRS 6  /* budgets have no room for the pairs and contacts that its fragments are expected to have */
+// No body that was hit: a fragment that left the world. Only its place and who it was are told.
+#define WHOLE_GONE 7
 
 // Where a fragment goes: a slot of a body, a slot of a piece and its hull, the first face of the hull, the first triangle of
 // the surface. Of vertices, edges and corners a hull has no more than so many for each of its faces: they begin in their pools

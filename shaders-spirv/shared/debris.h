@@ -1,4 +1,5 @@
-// Debris: small fragments that have come to rest fade, and then give back what they had of the pools.
+// Debris: small fragments at rest fade and leave the world, or leave it at once where room for fragments runs short. They give back
+// what they had of the pools.
 #ifndef DEBRIS_H
 #define DEBRIS_H
 
@@ -22,7 +23,8 @@ struct DebrisClock {
 #define DEBRIS_PAIR_ARGUMENTS 8
 #define DEBRIS_GO_ARGUMENTS 12
 #define DEBRIS_RETURN_ARGUMENTS 16
-#define DEBRIS_WORDS 20
+#define DEBRIS_TELL_ARGUMENTS 20
+#define DEBRIS_WORDS 24
 
 GPU_NAMESPACE_END
 

@@ -74,6 +74,25 @@ TEST(AbiHostedSteps, ThatWereNeverSubmittedAreMadeAtTheEnd) {
     EXPECT_EQ(hashOf(host, own.world), hashOf(host, hosted.world));
 }
 
+TEST(AbiSteps, ThatFailedForABudgetOfPairsAreMadeAfterItIsRaised) {
+    Hosting host;
+    std::vector<BrittleBodyDef> cubes;
+    for (int k = 0; k < 6; ++k) {
+        cubes.push_back(glassCube(host, 0.3 + 0.2 * k));
+        cubes.back().velocity = {0, 0, 0};
+    }
+    BrittleWorldDef def = brittleDefaultWorldDef();
+    def.budget.pairs = 2;
+    const Scene scene = makeScene(host, cubes, def);
+    ASSERT_EQ(brittleStep(host, scene.world, 1), BRITTLE_CAPACITY);
+    EXPECT_EQ(brittleSetBudget(host, scene.world, 1, 0), BRITTLE_BAD_VALUE);
+    EXPECT_EQ(brittleSetBudget(host, scene.world, 20'000'000, 0), BRITTLE_BAD_VALUE);
+    EXPECT_EQ(brittleStep(host, scene.world, 1), BRITTLE_CAPACITY);
+    MUST(host, brittleSetBudget(host, scene.world, 1000, 0));
+    MUST(host, brittleStep(host, scene.world, 5));
+    EXPECT_GT(countsOf(host, scene.world).pairs, 2u);
+}
+
 // ---- blows by hand ---------------------------------------------------------------------------------------------------------
 
 // Glass that lies apart on a ledge that does not move, where nothing else happens.

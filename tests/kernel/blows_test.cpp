@@ -2,6 +2,7 @@
 // balls that meet head on.
 #include "modules/brittle/effects/blow.h"
 #include "shaders-spirv/shared/breaking.h"
+#include "shaders-spirv/shared/pool.h"
 #include "tests/kernel/solver_lab.h"
 
 #include <bit>
@@ -22,6 +23,7 @@ struct Line {
     double duration = 1.0 / 60, gravity = 0;
     std::array<uint32_t, 4> room = {256, 100'000, 1 << 20, 512}; // bodies, triangles, sites of a step; fragments of a body
     uint32_t most_pairs = NO_INDEX, most_contacts = NO_INDEX;
+    uint32_t room_for_fragments = 1 << 20, kept_for_each = 0, kept_for_whole = 0;
 
     uint32_t add(double speed, double mass, bool breaks) {
         RigidBody body;
@@ -92,13 +94,19 @@ Outcome judge(const Line& line) {
     const struct {
         uint32_t room[4], seed, most_pairs, most_contacts;
         float duration, margin, pause;
+        uint32_t kept_for_each, kept_for_whole;
     } admit = {{line.room[0], line.room[1], line.room[2], line.room[3]},
                7,
                line.most_pairs,
                line.most_contacts,
                static_cast<float>(line.duration),
                0.02f,
-               0.25f};
+               0.25f,
+               line.kept_for_each,
+               line.kept_for_whole};
+    std::vector<gpu::PoolHeader> headers(POOLS);
+    headers[POOL_BODIES].capacity = line.room_for_fragments;
+    const engine::Buffer pools = bufferOf(headers);
     const engine::Buffer vertices = blankBuffer<float>(8); // of what breaks in spokes and rings, which nothing does
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(
@@ -114,7 +122,7 @@ Outcome judge(const Line& line) {
                           {counts.words, memory, states, blows, chosen, touches, shares});
         commands.dispatchGroups(kernel("admit_breaking"), 1, admit,
                                 {counts.words, memory, states, shapes, blows, chosen, cards, steps, breakable, breaking, broken,
-                                 event.words, event.args, vertices});
+                                 event.words, event.args, vertices, pools});
     });
     return {valuesOf<gpu::BlowRecord>(blows, pairs),
             valuesOf<uint32_t>(touches, pairs),
@@ -255,11 +263,17 @@ TEST(Blows, OnAWallAreAsManyAsHitIt) {
     EXPECT_EQ(out.sites, sites);
 }
 
-TEST(Blows, WaitWhereThereIsNoRoomInThisStepAndAreDroppedWhereThereNeverIs) {
+// Bodies that a wall is hit by, each by its own pair.
+Line manyAtAWall(uint32_t count, double speed = 10) {
     Line line;
     const uint32_t wall = line.add(0, 0, false);
-    for (uint32_t k = 0; k < 5; ++k)
-        line.touch(line.add(10, 3, true), wall, 0.001);
+    for (uint32_t k = 0; k < count; ++k)
+        line.touch(line.add(speed, 3, true), wall, 0.001);
+    return line;
+}
+
+TEST(Blows, WaitWhereThereIsNoRoomInThisStepAndAreDroppedWhereThereNeverIs) {
+    Line line = manyAtAWall(5);
     line.room = {256, 2 * kCorners / 3, 4096, 512};
     const Outcome two = judge(line);
     ASSERT_EQ(two.broken.size(), 2u);
@@ -272,6 +286,44 @@ TEST(Blows, WaitWhereThereIsNoRoomInThisStepAndAreDroppedWhereThereNeverIs) {
     EXPECT_EQ(without.unfit, uint32_t{WHOLE_TOO_LARGE});
     EXPECT_EQ(without.broken[2].ids.x, 3u);
     EXPECT_GT(without.breakable[3].form.w, 1e30f);
+}
+
+TEST(Blows, LeaveFragmentsToBodiesThatHaveNotBrokenYet) {
+    Line line = manyAtAWall(5, 100);
+    line.kept_for_each = 8;
+    line.room_for_fragments = 1 << 20;
+    const Outcome plenty = judge(line);
+    line.room_for_fragments = 60;
+    const Outcome few = judge(line);
+    ASSERT_EQ(few.broken.size(), 5u);
+    EXPECT_EQ(few.unfit, 0u);
+    EXPECT_LE(few.sites, 60u);
+    for (uint32_t k = 0; k < 5; ++k) {
+        EXPECT_GT(plenty.breaking[k].sites.y, 60u);
+        EXPECT_GE(few.breaking[k].sites.y, 8u) << k;
+    }
+    EXPECT_EQ(few.breaking[0].sites.y, (60u - 4 * 8) / 2) << "half of what is not kept";
+    EXPECT_EQ(few.broken[0].share.y, plenty.broken[0].share.y) << "what the blow pays for is told all the same";
+    line.breakable[1].form.w = 3e38f;
+    line.memory.erase(line.memory.begin());
+    EXPECT_EQ(judge(line).breaking[0].sites.y, (60u - 3 * 8) / 2) << "nothing is kept for what never breaks";
+}
+
+TEST(Blows, OnFragmentsLeaveHalfOfTheBudgetToBodiesThatHaveNotBrokenYet) {
+    Line line = manyAtAWall(2, 100);
+    line.kept_for_whole = 512;
+    line.breakable[1].balance.w = 1; // the step that it was made in
+    line.room_for_fragments = 512 + 40;
+    EXPECT_EQ(judge(line).breaking[0].sites.y, 10u);
+    line.room_for_fragments = 512;
+    const Outcome none = judge(line);
+    ASSERT_EQ(none.broken.size(), 2u);
+    EXPECT_EQ(none.broken[0].ids.x, 2u) << "the whole one breaks";
+    EXPECT_EQ(none.unfit, uint32_t{WHOLE_NO_ROOM});
+    EXPECT_EQ(none.broken[1].ids.x, 1u);
+    EXPECT_GE(none.broken[1].share.z, 2.0f) << "fragments that lack";
+    line.breakable[2].balance.w = 1;
+    EXPECT_EQ(judge(line).breaking[0].sites.y, 512u / 4) << "there is nobody to leave them to";
 }
 
 // The sphere around the impact and the grid are checked in the gathering of what breaks; here, that the place is the contact's.

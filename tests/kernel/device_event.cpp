@@ -83,6 +83,7 @@ void DeviceEvent::prepare() {
     if (local_sites_.empty()) columns_ = brittle::makeColumns(solid_.mesh, grid_);
     capacity_ = brittle::estimateCapacities(solid_.mesh, solid_.topology, grid_, count);
     capacity_.emit_window = 1 << 20;
+    capacity_.source_window = 128; // so that most meshes have several parts
 }
 
 void DeviceEvent::recordOnce(Until until) {
@@ -131,7 +132,11 @@ void DeviceEvent::upload(engine::Commands& commands, engine::Buffer& staging) co
     upload.add(std::span(solid_.mesh.triangles), buffers_.mesh_triangles);
     upload.add(std::span(solid_.topology.triangle_edges), buffers_.triangle_edges);
     upload.add(std::span(solid_.topology.edges), buffers_.mesh_edges);
-    upload.add(std::span(std::as_const(attributes)), buffers_.corner_attributes);
+    std::span<const float> left = attributes;
+    for (const engine::BufferView& part : buffers_.corner_attributes) {
+        upload.add(left.first(std::min<size_t>(left.size(), part.size / 4)), part);
+        left = left.subspan(std::min<size_t>(left.size(), part.size / 4));
+    }
     upload.add(std::span(std::as_const(sites)), buffers_.raw_sites);
     upload.add(std::span(placed), buffers_.placed);
     upload.add(std::span(columns_.start), buffers_.column_start);

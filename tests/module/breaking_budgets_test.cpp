@@ -11,10 +11,10 @@ namespace {
 using namespace breaking_scenes;
 using brittle::BodyDescription, brittle::SceneDescription;
 
-// What stayed whole for want of room breaks once there is some: nothing is lost by the attempt.
+// Triangles of surfaces: nothing is lost by the attempt.
 TEST(BreakingBudgets, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
     brittle::WorldBudget budget;
-    budget.breaking.fragments = 200;
+    budget.breaking.triangles = 6000;
     budget.breaking.most_fragments = 128;
     const auto world = worldOf(sceneOf({ball({0, 3, 0}, "glass"), ball({1, 3, 0}, "glass")}), budget);
     const double mass = massOf(presentBodies(*world));
@@ -23,7 +23,67 @@ TEST(BreakingBudgets, OfTwoThatDoNotFitTogetherOneBreaksAndTheOtherIsTold) {
     EXPECT_GT(events[0].made.x, 100u);
     EXPECT_EQ(events[1].made.x, 0u);
     EXPECT_EQ(events[1].made.y, uint32_t{WHOLE_NO_ROOM});
+    EXPECT_GT(events[1].lacked.w, 0u);
     EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-6 * mass);
+}
+
+// Twelve balls that hit the ground one after the other, with room for 128 fragments.
+TEST(BreakingBudgets, WhereFragmentsRunShortAllBodiesBreakIntoFewer) {
+    std::vector<BodyDescription> balls;
+    for (int k = 0; k < 12; ++k) {
+        balls.push_back(ball({0.5 * k, 0.2 + 0.1 * k, 0}, "glass"));
+        balls.back().velocity = {0, -12, 0};
+    }
+    SceneDescription scene = sceneOf(balls);
+    scene.effects.emplace_back("refracture");
+    brittle::WorldBudget budget;
+    budget.breaking.fragments = 128;
+    const auto world = worldOf(scene, budget);
+    uint32_t first = 0, broken = 0;
+    for (uint32_t k = 0; k < 30; ++k) {
+        step(*world);
+        const auto breaks = world->breaks();
+        ASSERT_TRUE(breaks);
+        for (const gpu::BreakEvent& event : breaks->events) {
+            if (event.what.y >= 12) continue; // a fragment
+            EXPECT_EQ(event.made.y, 0u) << "ball " << event.what.y;
+            EXPECT_GE(event.made.x, 2u);
+            if (broken++ == 0) first = event.made.x;
+        }
+    }
+    EXPECT_EQ(broken, 12u);
+    EXPECT_GT(first, 10u);
+}
+
+// A heap of balls, so many that a small budget of pairs does not do.
+SceneDescription heapOfBalls() {
+    std::vector<BodyDescription> balls;
+    for (int k = 0; k < 64; ++k)
+        balls.push_back(ball({0.199 * (k % 4), 0.1 + 0.199 * (k / 16), 0.199 * (k / 4 % 4)}, "concrete"));
+    return sceneOf(balls);
+}
+
+TEST(BreakingBudgets, AStepThatFailedForWantOfPairsIsMadeOnceThereIsRoom) {
+    brittle::WorldBudget budget;
+    budget.pairs = 20;
+    const auto world = worldOf(heapOfBalls(), budget), roomy = worldOf(heapOfBalls());
+    for (int k = 0; k < 2; ++k) {
+        const auto refused = world->step();
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, engine::ErrorCode::Capacity);
+    }
+    const auto lower = world->setPairBudget(10, 0);
+    ASSERT_FALSE(lower);
+    EXPECT_NE(lower.error().message.find("can only be raised"), std::string::npos) << lower.error().message;
+    EXPECT_FALSE(world->setPairBudget(UINT32_MAX / 2, 0)) << "more than the device can bind";
+    EXPECT_FALSE(world->step()) << "the budget is as it was";
+    for (const uint32_t pairs : {2000u, 0u}) {
+        const auto raised = world->setPairBudget(pairs, 0);
+        ASSERT_TRUE(raised) << raised.error().message;
+        step(*world, 10);
+        step(*roomy, 10);
+        EXPECT_EQ(*world->hash(), *roomy->hash());
+    }
 }
 
 struct Outcomes {
@@ -131,11 +191,11 @@ TEST(BreakingBudgets, BudgetsOfOneFragmentAreRefused) {
 }
 
 TEST(BreakingBudgets, MoreFragmentsThanPoolsHoldAreRefusedByName) {
-    EXPECT_TRUE(tryWorldOfABall({.fragments = 4000}));
-    const auto refused = tryWorldOfABall({.fragments = 5000});
+    EXPECT_TRUE(tryWorldOfABall({.fragments = 16384}));
+    const auto refused = tryWorldOfABall({.fragments = 40'000});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, engine::ErrorCode::Capacity);
-    EXPECT_NE(refused.error().message.find("a budget of 5000 fragments"), std::string::npos) << refused.error().message;
+    EXPECT_NE(refused.error().message.find("a budget of 40000 fragments"), std::string::npos) << refused.error().message;
     EXPECT_NE(refused.error().message.find("at most"), std::string::npos);
 }
 

@@ -100,6 +100,21 @@ Json toJson(const gpu::BreakEvent& event, const EventReport& report) {
     return json;
 }
 
+bool isGone(const gpu::BreakEvent& event) { return event.made.y == WHOLE_GONE; }
+
+std::vector<gpu::BreakEvent> blowsOf(const EventReport& report) {
+    std::vector<gpu::BreakEvent> blows = report.breaks.events;
+    std::erase_if(blows, isGone);
+    return blows;
+}
+
+Json goneToJson(const gpu::BreakEvent& event, const EventReport& report) {
+    return {{"step", event.what.x},
+            {"seconds", event.what.x * report.dt},
+            {"body", nameOf(struckOf(event), report)},
+            {"place", brittle::placeOf(event.sector, event.offset)}};
+}
+
 Json toJson(const gpu::ImpactEvent& event, const EventReport& report) {
     return {{"step", event.what.x},
             {"seconds", event.what.x * report.dt},
@@ -144,7 +159,7 @@ std::string outcomeOf(const gpu::BreakEvent& event) {
 }
 
 void printBreaks(const EventReport& report) {
-    const std::vector<gpu::BreakEvent>& events = report.breaks.events;
+    const std::vector<gpu::BreakEvent> events = blowsOf(report);
     const char* heading = "breaks";
     for (size_t k = 0; k < std::min(events.size(), kLines); ++k) {
         const gpu::BreakEvent& event = events[k];
@@ -171,7 +186,13 @@ void printImpacts(const EventReport& report) {
 
 } // namespace
 
-Json breaksJson(const EventReport& report) { return listOf(report.breaks.events, report); }
+Json breaksJson(const EventReport& report) { return listOf(blowsOf(report), report); }
+Json goneJson(const EventReport& report) {
+    Json list = Json::array();
+    for (const gpu::BreakEvent& event : report.breaks.events)
+        if (isGone(event)) list.push_back(goneToJson(event, report));
+    return list;
+}
 Json impactsJson(const EventReport& report) { return listOf(report.impacts.events, report); }
 
 void printEvents(const EventReport& report) {

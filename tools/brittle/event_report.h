@@ -20,6 +20,8 @@ struct EventReport {
 
 // Fragments go by the names that they have in an animation (body_cast.h).
 nlohmann::ordered_json breaksJson(const EventReport& report);
+// Fragments that left the world.
+nlohmann::ordered_json goneJson(const EventReport& report);
 nlohmann::ordered_json impactsJson(const EventReport& report);
 // A line for each break, the first few of many, and one for all impacts.
 void printEvents(const EventReport& report);

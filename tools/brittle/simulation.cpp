@@ -218,6 +218,7 @@ nlohmann::ordered_json simulationJson(const SimulationReport& r) {
             {"impacts", impactsJson(r.told)},
             {"impacts_lost", r.told.impacts.lost},
             {"expired", r.counts.expired},
+            {"gone", goneJson(r.told)},
             {"dust", r.dust ? dustJson(*r.dust) : nlohmann::ordered_json()},
             {"colliders", r.colliders},
             {"pieces", r.pieces},
@@ -238,7 +239,7 @@ void printSimulation(const SimulationReport& r, const std::string& output) {
         std::printf("broken     %u bodies, into %u fragments; %u bodies at the end\n", r.counts.broken, r.counts.fragments,
                     r.movers_left);
     printEvents(r.told);
-    if (r.counts.expired > 0) std::printf("gone       %u fragments, after their time\n", r.counts.expired);
+    if (r.counts.expired > 0) std::printf("gone       %u fragments, after their time or to make room\n", r.counts.expired);
     if (r.dust) printDust(*r.dust);
     std::printf("time       %.2f ms a step (median), %.2f (99 of 100), %.0f the first; %u dispatches\n", r.median_ms, r.p99_ms,
                 r.first_ms, r.dispatches);

@@ -16,7 +16,8 @@ constexpr std::pair<BrittleEffect, Effect> kEffects[] = {{BRITTLE_EFFECT_GRAVITY
                                                          {BRITTLE_EFFECT_DUST, Effect::Dust},
                                                          {BRITTLE_EFFECT_DEBRIS_LIFETIME, Effect::DebrisLifetime},
                                                          {BRITTLE_EFFECT_EVENTS, Effect::Events},
-                                                         {BRITTLE_EFFECT_DRAG, Effect::Drag}};
+                                                         {BRITTLE_EFFECT_DRAG, Effect::Drag},
+                                                         {BRITTLE_EFFECT_DEBRIS_ROOM, Effect::DebrisRoom}};
 
 std::vector<std::string> effectNames(uint32_t bits) {
     std::vector<std::string> names;

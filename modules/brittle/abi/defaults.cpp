@@ -45,7 +45,8 @@ BrittleWorldDef brittleDefaultWorldDef(void) {
     BrittleWorldDef def = {};
     def.struct_size = sizeof def;
     def.effects = BRITTLE_EFFECT_GRAVITY | BRITTLE_EFFECT_CONTACTS | BRITTLE_EFFECT_FRICTION | BRITTLE_EFFECT_CCD |
-                  BRITTLE_EFFECT_SLEEPING | BRITTLE_EFFECT_IMPACT_FRACTURE | BRITTLE_EFFECT_REFRACTURE | BRITTLE_EFFECT_EVENTS;
+                  BRITTLE_EFFECT_SLEEPING | BRITTLE_EFFECT_IMPACT_FRACTURE | BRITTLE_EFFECT_REFRACTURE | BRITTLE_EFFECT_EVENTS |
+                  BRITTLE_EFFECT_DEBRIS_ROOM;
     def.gravity = vectorOf(usual.gravity);
     def.dt = usual.step.dt;
     def.substeps = usual.step.substeps;

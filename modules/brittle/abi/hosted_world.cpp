@@ -77,8 +77,8 @@ World& HostedWorld::running() {
 void HostedWorld::start(engine::Device& device) {
     mustNotRun();
     orRefuseFields(checkScene(scene));
-    constexpr uint64_t kUsualFragments = 1024;
-    if (originalCount() + std::max<uint64_t>(scene.budgets.fragments, kUsualFragments) >= kColliders)
+    constexpr uint64_t kMostUsualFragments = 8192;
+    if (originalCount() + std::max<uint64_t>(scene.budgets.fragments, kMostUsualFragments) >= kColliders)
         throw Refusal(BRITTLE_CAPACITY, "a world has at most 2 million bodies, colliders and fragments together");
     const auto fracture = orRefuse(fractureFor(scene, device));
     surfaces = {};

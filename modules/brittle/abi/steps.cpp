@@ -5,6 +5,7 @@ namespace {
 
 using namespace brittle::abi;
 
+constexpr uint32_t kMostRoom = 10'000'000;
 constexpr uint32_t kMostSteps = 1'000'000, kMostRecorded = 1000;
 
 } // namespace
@@ -15,6 +16,13 @@ BrittleResult brittleStep(BrittleContext* context, BrittleWorld world, uint32_t 
         if (steps > kMostSteps) throw Refusal(BRITTLE_BAD_VALUE, "at most 1,000,000 steps at a time");
         c.worlds.at(world.id).saved.reset();
         orRefuse(w.step(steps));
+    });
+}
+
+BrittleResult brittleSetBudget(BrittleContext* context, BrittleWorld world, uint32_t pairs, uint32_t contacts) {
+    return bounded(context, [&](BrittleContext& c) {
+        if (pairs > kMostRoom || contacts > kMostRoom) throw Refusal(BRITTLE_BAD_VALUE, "budgets go up to 10,000,000");
+        orRefuse(c.worlds.at(world.id).running().setPairBudget(pairs, contacts));
     });
 }
 

@@ -32,7 +32,7 @@ void shareMesh(const EventBuffers& b, GatherBuffers& gather) {
     gather.mesh_positions = b.mesh_positions;
     gather.grid_vertices = b.grid_vertices;
     gather.mesh_triangles = b.mesh_triangles;
-    gather.corner_attributes = b.corner_attributes;
+    gather.corner_attributes = b.corner_attributes.front();
     gather.triangle_edges = b.triangle_edges;
     gather.mesh_edges = b.mesh_edges;
 }

@@ -87,6 +87,7 @@ public:
         const struct {
             uint32_t bodies, triangles, sites, fragments, seed, pairs, contacts;
             float duration, margin, pause;
+            uint32_t kept_for_each, kept_for_whole;
         } admit = {room_.step_bodies,
                    room_.step_triangles,
                    room_.step_sites,
@@ -96,16 +97,19 @@ public:
                    orAll(room_.contacts),
                    static_cast<float>(s.settings.dt),
                    static_cast<float>(contactMargin(s.settings)),
-                   kPause};
+                   kPause,
+                   room_.kept_for_each,
+                   room_.kept_for_whole};
         if (strikes != nullptr)
             s.record.runGroups("admit_strikes", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
                                 l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,
-                                strikes->records()});
+                                pools_.headers, strikes->records()});
         else
             s.record.runGroups("admit_breaking", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
-                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices});
+                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,
+                                pools_.headers});
         s.record.commands().endLabel();
     }
 
@@ -123,7 +127,7 @@ public:
         if (s.has(Effect::Events)) recordTelling(s);
         record.commands().endLabel();
         recordSwap(record, s);
-        if (debris_) debris_->record(s, worldOf(s), room_.pools, pools_);
+        if (debris_) debris_->record(s, worldOf(s), room_.pools, pools_, {l_.told, l_.ring});
         return record.status();
     }
 
@@ -270,8 +274,9 @@ private:
             if (!dust) return dust.error();
             dust_ = std::move(*dust);
         }
-        if (!effects_.has(Effect::DebrisLifetime)) return {};
-        auto debris = Debris::create(device_, sizes_.bodies);
+        if (!effects_.has(Effect::DebrisLifetime) && !effects_.has(Effect::DebrisRoom)) return {};
+        const uint32_t half = room_.kept_for_whole;
+        auto debris = Debris::create(device_, {sizes_.bodies, half / 4, half / 2, room_.kept_for_each, room_.whole}, effects_);
         if (!debris) return debris.error();
         debris_ = std::move(*debris);
         return {};

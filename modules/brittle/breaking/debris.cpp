@@ -13,20 +13,22 @@ using engine::BufferDomain;
 using engine::BufferView;
 using engine::Result;
 
+constexpr double kRest = 0.5; // s, after which a fragment may make room
+
 } // namespace
 
-Result<std::unique_ptr<Debris>> Debris::create(engine::Device& device, uint32_t bodies) {
-    std::unique_ptr<Debris> debris(new Debris(device));
-    if (auto made = debris->make(bodies); !made) return made.error();
+Result<std::unique_ptr<Debris>> Debris::create(engine::Device& device, const DebrisRoom& room, EffectSet effects) {
+    std::unique_ptr<Debris> debris(new Debris(device, room, effects));
+    if (auto made = debris->make(); !made) return made.error();
     return debris;
 }
 
-Result<void> Debris::make(uint32_t bodies) {
+Result<void> Debris::make() {
     struct Wanted {
         Buffer& buffer;
         uint64_t bytes;
         const char* name;
-    } const wanted[] = {{clocks_, bodies * sizeof(gpu::DebrisClock), "debris clocks"},
+    } const wanted[] = {{clocks_, room_.bodies * sizeof(gpu::DebrisClock), "debris clocks"},
                         {words_, 4 * DEBRIS_WORDS, "debris"},
                         {leaving_, 4 * MOST_EXPIRING, "debris that goes"},
                         {returned_, MOST_EXPIRING * sizeof(gpu::PoolShare), "ranges of debris"}};
@@ -35,7 +37,7 @@ Result<void> Debris::make(uint32_t bodies) {
         if (!made) return made.error();
         buffer = std::move(*made);
     }
-    const std::vector<gpu::DebrisClock> clocks(bodies);
+    const std::vector<gpu::DebrisClock> clocks(room_.bodies);
     Upload upload;
     upload.add(std::span(clocks), clocks_);
     return upload.send(device_);
@@ -43,19 +45,37 @@ Result<void> Debris::make(uint32_t bodies) {
 
 void Debris::recordAging(const Step& s, const BreakableWorld& world) const {
     const StepSettings& set = s.settings;
+    const double below = s.has(Effect::DebrisLifetime) ? set.debris_below : 0;
     const float push[] = {static_cast<float>(set.dt), static_cast<float>(set.sleep_speed),
-                          static_cast<float>(set.debris_below * set.debris_below * set.debris_below),
-                          static_cast<float>(set.debris_after), static_cast<float>(set.debris_fade)};
+                          static_cast<float>(below * below * below), static_cast<float>(set.debris_after),
+                          static_cast<float>(set.debris_fade)};
     s.record.clear({words_});
     s.record.run("age_debris", Length::counted(COUNT_BODIES), push,
                  {s.record.counts(), world.bodies, world.breakable, world.steps, clocks_, words_});
+}
+
+void Debris::recordLeaving(const Step& s, const BreakableWorld& world, const PoolBuffers& pools) const {
+    struct Push {
+        uint32_t least_room, enough_room;
+        float rest;
+        uint32_t kept_for_each, most_whole;
+    } push = {room_.least_fragments, room_.enough_fragments,
+              static_cast<float>(std::clamp(s.settings.debris_after, 1e-3, kRest)), room_.kept_for_each, room_.most_whole};
+    if (s.has(Effect::DebrisRoom))
+        s.record.runGroups("make_room", 1, push,
+                           {s.record.counts(), world.breakable, world.steps, pools.headers, clocks_, words_});
     s.record.runGroups("list_debris", argumentsAt(DEBRIS_LIST_ARGUMENTS), engine::NoPush{},
                        {s.record.counts(), s.record.args(), clocks_, words_, leaving_});
 }
 
-void Debris::record(const Step& s, const BreakableWorld& world, const PoolRoom& room, const PoolBuffers& pools) const {
+void Debris::record(const Step& s, const BreakableWorld& world, const PoolRoom& room, const PoolBuffers& pools,
+                    const BreakEvents& events) const {
     s.record.commands().beginLabel("debris");
     recordAging(s, world);
+    recordLeaving(s, world, pools);
+    if (s.has(Effect::Events))
+        s.record.runGroups("tell_gone", argumentsAt(DEBRIS_TELL_ARGUMENTS), engine::NoPush{},
+                           {words_, leaving_, world.bodies, world.breakable, world.steps, events.told, events.ring});
     if (s.has(Effect::Sleeping))
         s.record.runGroups("wake_debris", argumentsAt(DEBRIS_PAIR_ARGUMENTS), engine::NoPush{},
                            {s.record.counts(), s.now.contacts, clocks_, world.bodies});
@@ -80,8 +100,8 @@ Result<std::vector<float>> Debris::fades(uint32_t slots, const StepSettings& set
 }
 
 std::vector<NamedBuffer> Debris::named() const {
-    const auto named = [](const char* name, const Buffer& buffer) {
-        return NamedBuffer{name, buffer, buffer.size(), Effect::DebrisLifetime};
+    const auto named = [this](const char* name, const Buffer& buffer) {
+        return NamedBuffer{name, buffer, buffer.size(), asked_by_};
     };
     return {named("debris clocks", clocks_), named("debris", words_), named("debris that goes", leaving_),
             named("ranges of debris", returned_)};

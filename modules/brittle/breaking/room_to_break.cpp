@@ -14,9 +14,11 @@ namespace {
 
 using engine::Error, engine::ErrorCode;
 
-constexpr uint32_t kFragments = 1024, kFacesOfOne = 24, kTrianglesOfOne = 96;
+constexpr uint32_t kFragments = 1024, kMostUsualFragments = 8192, kFacesOfOne = 24, kTrianglesOfOne = 96;
+constexpr uint32_t kUsualForEach = 4, kMostKeptForEach = 8; // fragments
 constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
-constexpr uint64_t kMostUsualTriangles = 1'390'000; // 96 bytes each: as many as fit in 128 MiB, which every device binds at once
+constexpr uint64_t kMostUsualTriangles =
+    1'390'000; // 96 bytes each: as many as fit in 128 MiB, which every device binds at once
 
 uint32_t timesRounded(uint32_t count, uint32_t each) { return (count + each - 1) / each; }
 
@@ -106,7 +108,13 @@ uint32_t largestSurface(const WorldContents& contents) {
 
 engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget) {
     RoomToBreak room;
-    const uint32_t fragments = chosen(budget.fragments, kFragments);
+    // What cannot break needs no room.
+    const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
+    const auto breakable = static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
+    const uint32_t fragments = chosen(budget.fragments, std::clamp(kUsualForEach * breakable, kFragments, kMostUsualFragments));
+    room.whole = breakable;
+    room.kept_for_each = std::min(kMostKeptForEach, fragments / (2 * std::max(breakable, 1u)));
+    room.kept_for_whole = fragments / 2;
     room.step_bodies = std::min<uint32_t>(chosen(budget.step_bodies, kStepBodies), MOST_BREAKING);
     room.step_triangles = chosen(budget.step_triangles, usualStepTriangles(largestSurface(contents)));
     room.step_sites = chosen(budget.step_sites, kStepSites);
@@ -124,9 +132,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     PoolRoom& pools = room.pools;
     pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + chosen(budget.faces, kFacesOfOne * fragments),
                       triangles + chosen(budget.triangles, usualTriangles(contents, fragments, room.most_fragments))};
-    // What cannot break gives nothing back.
-    const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
-    pools.objects = fragments + static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
+    pools.objects = fragments + breakable;
     pools.owners = room.step_bodies;
     pools.returned = std::max<uint32_t>(room.step_bodies, MOST_EXPIRING);
     if (const uint32_t beside = pools.ranges() - fragments; pools.ranges() > POOL_MOST_FREE)

@@ -22,6 +22,9 @@ struct RoomToBreak {
     uint32_t step_bodies = 0, step_triangles = 0, step_sites = 0, most_fragments = 0, particles = 0;
     uint32_t bodies = 0, pieces = 0;  // that there are before anything breaks
     uint32_t pairs = 0, contacts = 0; // that there may be; 0: as many as are needed
+    uint32_t whole = 0;               // bodies that can break, before anything does
+    uint32_t kept_for_each = 0;       // fragments, for each body of the scene that has not broken yet
+    uint32_t kept_for_whole = 0;      // fragments, for all of them together, by fragments that break again
     PoolRoom pools;
     FreeLists free; // before anything breaks
 };

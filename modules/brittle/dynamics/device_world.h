@@ -25,6 +25,7 @@ public:
 
     engine::Result<void> step(uint32_t steps) override;
     engine::Result<void> advance(uint32_t steps) override;
+    engine::Result<void> setPairBudget(uint32_t pairs, uint32_t contacts) override;
     engine::Result<void> recordSteps(VkCommandBuffer commands, uint32_t steps) override;
     engine::Result<void> strike(const HandBlow& blow) override;
 
@@ -84,6 +85,8 @@ private:
     engine::Result<void> grow(uint32_t needed);
     // A state of when there was more room than there is now.
     engine::Result<void> growFor(const StateHead& state);
+    // Room for so many pairs, and everything as it was.
+    engine::Result<void> growTo(uint32_t pairs);
     // All anew, as it was in the beginning.
     engine::Result<void> makeRoom(uint32_t pairs);
 

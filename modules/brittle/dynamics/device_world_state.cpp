@@ -67,10 +67,33 @@ Result<void> DeviceWorld::mend(const std::vector<uint32_t>& words) {
     return lacks_pairs && can_grow ? grow(needed) : failureOf(words);
 }
 
-Result<void> DeviceWorld::grow(uint32_t needed) {
+Result<void> DeviceWorld::grow(uint32_t needed) { return growTo(std::min(needed + needed / 2, mostPairs(device_))); }
+
+Result<void> DeviceWorld::setPairBudget(uint32_t pairs, uint32_t contacts) {
+    if (!has(Effect::Contacts)) return {};
+    if (const auto settled = settle(); !settled && settled.error().code != ErrorCode::Capacity) return settled;
+    const uint32_t room = pairs != 0 ? pairs : b_.sizes.pairs;
+    if (room < b_.sizes.pairs || (contacts != 0 && contacts < b_.sizes.contacts))
+        return Error{ErrorCode::BadInput, "a budget of " + std::to_string(pairs) + " pairs and " + std::to_string(contacts) +
+                                              " contacts, there is room for " + std::to_string(b_.sizes.pairs) + " and " +
+                                              std::to_string(b_.sizes.contacts) + " now; a budget can only be raised"};
+    const WorldBudget before = budget_;
+    const RoomToBreak broken_into = to_break_;
+    budget_.pairs = pairs;
+    budget_.contacts = contacts;
+    to_break_.pairs = pairs;
+    to_break_.contacts = contacts != 0 ? contacts : pairs;
+    const auto grown = growTo(room);
+    if (grown) return grown;
+    budget_ = before;
+    to_break_ = broken_into;
+    return grown;
+}
+
+Result<void> DeviceWorld::growTo(uint32_t pairs) {
     const auto saved = readState(device_, stateViews(), heard_);
     if (!saved) return saved.error();
-    if (auto made = makeRoom(std::min(needed + needed / 2, mostPairs(device_))); !made) return made;
+    if (auto made = makeRoom(pairs); !made) return made;
     if (auto done = writeState(device_, *saved, stateViews()); !done) return done;
     return record();
 }
@@ -92,7 +115,10 @@ Result<void> DeviceWorld::makeRoom(uint32_t pairs) {
     if (!larger) return larger.error();
     std::swap(b_, *larger);
     if (breaking_)
-        if (auto made = makeBreakable(to_break_); !made) return made;
+        if (auto made = makeBreakable(to_break_); !made) {
+            std::swap(b_, *larger);
+            return made;
+        }
     return std::exchange(drawing_, nullptr) ? makeDrawing() : Result<void>();
 }
 

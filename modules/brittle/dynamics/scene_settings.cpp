@@ -39,6 +39,7 @@ Result<StepSettings> settingsOf(const SceneDescription& scene) {
     s.events = has(Effect::Events);
     s.dust = has(Effect::Dust);
     s.debris_lifetime = has(Effect::DebrisLifetime);
+    s.debris_room = has(Effect::DebrisRoom);
     s.smallest_piece = scene.breaking.smallest_piece;
     s.dust_lifetime = scene.dust.lifetime;
     s.debris_below = scene.debris.below;

@@ -98,6 +98,7 @@ EffectSet effectsOf(const StepSettings& s) {
     addIf(s.contacts && s.impact_fracture && s.refracture, Effect::Refracture);
     addIf(s.contacts && s.impact_fracture && s.dust, Effect::Dust);
     addIf(s.contacts && s.impact_fracture && s.debris_lifetime, Effect::DebrisLifetime);
+    addIf(s.contacts && s.impact_fracture && s.debris_room, Effect::DebrisRoom);
     return set;
 }
 

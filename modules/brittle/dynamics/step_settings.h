@@ -46,6 +46,7 @@ struct StepSettings {
     bool dust = false;             // such cells fly on as particles (breaking/dust.h)
     double dust_lifetime = 4;      // s, after which particles settle
     bool debris_lifetime = false;  // small fragments that have come to rest fade and go (breaking/debris.h)
+    bool debris_room = false;      // where room for fragments runs short, small old ones at rest go (breaking/debris.h)
     double debris_below = 0.05;    // m: whose volume is less than that of a cube of this edge
     double debris_after = 3;       // s of rest
     double debris_fade = 1;        // s

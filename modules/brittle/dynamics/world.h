@@ -44,7 +44,7 @@ struct WorldCounts {
     uint32_t breaking_groups = 0; // workgroups over what broke in it; none where nothing did
     uint32_t broken = 0;          // bodies that have broken since the beginning
     uint32_t fragments = 0;       // that they became; some may have broken again
-    uint32_t expired = 0;         // fragments that have gone after their time, with the effect `debris_lifetime`
+    uint32_t expired = 0;         // fragments that have gone, by `debris_lifetime` and `debris_room`
     // In use of the pools that bodies break in: bodies, their pieces, faces of hulls, triangles of surfaces. 0 where none can.
     std::array<uint32_t, POOLS> in_use = {};
     uint32_t pool_faults = 0; // POOL_* (shaders-spirv/shared/pool.h), of any pool; each is a bug
@@ -64,6 +64,11 @@ public:
     // can bind no more: the step that did not fit has not been made. BadInput, told once, for
     // a body, by its index as added, whose motion outgrew floats: it stays where it was, at rest.
     virtual engine::Result<void> step(uint32_t steps = 1) = 0;
+
+    // Makes room for so many pairs and contacts from the next step on, also after a step that failed for want of them; 0: no budget,
+    // room is made as it is needed. What waits to be settled is settled first. Errors: BadInput for less than there is room for
+    // now; Capacity for what the device cannot bind, Device: the budget is then as it was.
+    virtual engine::Result<void> setPairBudget(uint32_t pairs, uint32_t contacts) = 0;
 
     // Makes so many steps, waits, and reads nothing back from the device. What the next other function is called for is true of
     // all of these steps; an error of theirs is the one that it returns, and what step() makes good it makes good.

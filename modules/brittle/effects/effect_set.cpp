@@ -23,6 +23,7 @@ constexpr EffectFacts kFacts[] = {
     {"Small fragments that have come to rest fade and go.", {Effect::ImpactFracture}},
     {"The host is told what has happened.", {}},
     {"Air slows bodies by the square of their speed, and their turning.", {}},
+    {"Where room for fragments runs short, the smallest and oldest at rest go.", {Effect::ImpactFracture}},
 };
 static_assert(std::size(kFacts) == kEffectCount);
 

@@ -29,14 +29,15 @@ enum class Effect : uint8_t {
     Dust,
     DebrisLifetime,
     Events,
-    Drag
+    Drag,
+    DebrisRoom
 };
-constexpr size_t kEffectCount = static_cast<size_t>(Effect::Drag) + 1;
+constexpr size_t kEffectCount = static_cast<size_t>(Effect::DebrisRoom) + 1;
 
 // As scenes have them, in the order of Effect.
 inline constexpr std::array<std::string_view, kEffectCount> kEffectNames = {
     "gravity", "contacts", "friction", "restitution",     "ccd",    "sleeping", "impact_fracture", "refracture",
-    "bonds",   "stress",   "dust",     "debris_lifetime", "events", "drag"};
+    "bonds",   "stress",   "dust",     "debris_lifetime", "events", "drag",     "debris_room"};
 
 class EffectSet {
 public:

@@ -11,6 +11,11 @@ uint32_t turnBudget(const engine::Device& device, uint32_t group_size, Search se
     return device.isCpu() ? (60'000 - together) / device.subgroupSize() : 1u << 20;
 }
 
+uint32_t sourceWindow(const VkPhysicalDeviceLimits& limits) {
+    constexpr uint64_t kBytes = 15 * sizeof(float), kTogether = 64; // of which parts are whole multiples of 256 bytes
+    return static_cast<uint32_t>(std::min<uint64_t>(limits.maxStorageBufferRange / kBytes, 1u << 30) / kTogether * kTogether);
+}
+
 // Whose vertices one binding can hold; whole multiples of any alignment of views.
 uint32_t emitWindow(const VkPhysicalDeviceLimits& limits) {
     const uint64_t fit = uint64_t{limits.maxStorageBufferRange} / (3 * sizeof(FragmentVertex));

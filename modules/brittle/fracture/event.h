@@ -41,6 +41,8 @@ struct Event {
 uint32_t turnBudget(const engine::Device& device, uint32_t group_size, Search search, uint32_t sites);
 // Triangles that one dispatch of `emit` can reach.
 uint32_t emitWindow(const VkPhysicalDeviceLimits& limits);
+// Mesh triangles whose corners' normals and texture coordinates can be bound at once.
+uint32_t sourceWindow(const VkPhysicalDeviceLimits& limits);
 
 // Everything, once the mesh's vertices are on the grid and sites are in raw_sites.
 void recordFracture(const Event& e);

@@ -46,7 +46,9 @@ void takeKept(const Input& in, Taker& take) {
     b.sums = take.quads(longest / SCAN_BLOCK + 2);
     b.mesh_positions = take.words(3ull * c.vertices);
     b.mesh_triangles = take.words(3ull * c.triangles);
-    b.corner_attributes = take.words(15ull * c.triangles);
+    b.corner_attributes.clear();
+    for (uint32_t part = 0; part < c.sourceParts(); part++)
+        b.corner_attributes.push_back(take.words(15ull * c.sourcesIn(part)));
     b.sites = take.quads(c.sites);
     b.positions = take.quads(points);
     b.cell_offsets = take.quads(c.sites + 1ull);

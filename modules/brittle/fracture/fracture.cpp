@@ -221,6 +221,14 @@ private:
         return p;
     }
 
+    static void addInParts(Upload& upload, std::span<const float> values, const std::vector<engine::BufferView>& parts) {
+        for (const engine::BufferView& part : parts) {
+            const size_t count = std::min<size_t>(values.size(), part.size / sizeof(float));
+            if (count > 0) upload.add(values.first(count), part);
+            values = values.subspan(count);
+        }
+    }
+
     // Copies of the host's arrays live until the upload buffer is filled.
     static void addMesh(Upload& upload, const Mesh& mesh, const MeshTopology& topology, std::vector<float>& attributes,
                         const EventBuffers& b) {
@@ -233,7 +241,7 @@ private:
         upload.add(std::span(mesh.triangles), b.mesh_triangles);
         upload.add(std::span(topology.triangle_edges), b.triangle_edges);
         upload.add(std::span(topology.edges), b.mesh_edges);
-        upload.add(std::span(std::as_const(attributes)), b.corner_attributes);
+        addInParts(upload, attributes, b.corner_attributes);
     }
 
     static void addSites(Upload& upload, const Prepared& p, std::vector<uint32_t>& placed, const EventBuffers& b) {
@@ -270,8 +278,9 @@ private:
     engine::Result<Attempt> tryOnce(const Mesh& mesh, const MeshTopology& topology, const FractureOptions& options,
                                     const Prepared& p, Capacities& capacity) {
         EventBuffers b;
-        if (auto ok = layOutArena(capacity, p.columns, b); !ok) return ok.error();
         capacity.emit_window = emitWindow(device_.limits());
+        capacity.source_window = sourceWindow(device_.limits());
+        if (auto ok = layOutArena(capacity, p.columns, b); !ok) return ok.error();
         auto scene = SceneBuffers::create(device_, capacity.emitted, capacity.fragments);
         if (!scene) return scene.error();
         auto colliders = ColliderBuffers::create(device_, capacity);

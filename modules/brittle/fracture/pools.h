@@ -11,6 +11,7 @@
 #include "modules/brittle/mesh/mesh.h"
 #include "shaders-spirv/shared/fracture.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -35,10 +36,15 @@ struct Capacities {
     uint32_t clip_rounds = 0;
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
-    bool tiled = false;       // of several objects
-    bool touching = false;    // the mesh has edges of more than two triangles, and `wedges` are uploaded
-    bool relaxed = false;     // sites are still moved when cells have been cut
-    uint32_t emit_window = 0; // triangles that one dispatch of `emit` can reach
+    bool tiled = false;         // of several objects
+    bool touching = false;      // the mesh has edges of more than two triangles, and `wedges` are uploaded
+    bool relaxed = false;       // sites are still moved when cells have been cut
+    uint32_t emit_window = 0;   // triangles that one dispatch of `emit` can reach
+    uint32_t source_window = 0; // mesh triangles whose corner attributes it can reach; 0: all
+    uint32_t sourceParts() const { return source_window == 0 ? 1 : (std::max(triangles, 1u) - 1) / source_window + 1; }
+    uint32_t sourcesIn(uint32_t part) const {
+        return source_window == 0 ? triangles : std::min(source_window, triangles - source_window * part);
+    }
     // Kernels for rare cases are recorded, and so compiled, once an attempt has met such a case.
     struct Rare {
         bool exact_cells = false, medium_cells = false, large_cells = false, huge_faces = false, flaps = false, films = false,
@@ -88,7 +94,8 @@ struct EventBuffers {
     using View = engine::BufferView;
     View counts, args, sums;
     // mesh
-    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, wedges, corner_attributes, grid_vertices, vertex_tiles;
+    std::vector<View> corner_attributes; // of so many mesh triangles each as Capacities::source_window says
+    View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, wedges, grid_vertices, vertex_tiles;
     // sites
     View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags,
         site_offsets;

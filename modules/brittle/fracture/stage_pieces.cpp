@@ -158,16 +158,17 @@ void recordParts(const Event& e) {
     recordSort(e, COUNT_PARTS, {b.keys, b.other_keys}, {b.parts, b.other_parts});
 }
 
-void recordEmitWindow(const Event& e, uint32_t first) {
+void recordEmitWindow(const Event& e, uint32_t first, uint32_t part) {
     const auto& b = e.b;
+    const Capacities& c = e.capacity;
     struct Push {
-        uint32_t first_triangle, triangle_count;
-    } push = {first, std::min(e.capacity.emit_window, e.capacity.emitted - first)};
+        uint32_t first_triangle, triangle_count, first_source, source_count;
+    } push = {first, std::min(c.emit_window, c.emitted - first), c.source_window * part, c.sourcesIn(part)};
     constexpr VkDeviceSize kVertexBytes = 3 * sizeof(FragmentVertex), kIndexBytes = 3 * sizeof(uint32_t);
     e.record.run("emit", Length::counted(COUNT_VALID), push,
                  {e.record.counts(), b.values, b.components, b.pieces, b.sources, b.positions, b.class_offsets,
                   b.component_start, b.shares, b.demand_offsets, b.fates, b.mesh_positions, b.mesh_triangles,
-                  b.corner_attributes, e.scene.vertices.sub(kVertexBytes * first, kVertexBytes * push.triangle_count),
+                  b.corner_attributes[part], e.scene.vertices.sub(kVertexBytes * first, kVertexBytes * push.triangle_count),
                   e.scene.indices.sub(kIndexBytes * first, kIndexBytes * push.triangle_count)});
 }
 
@@ -214,7 +215,8 @@ void recordEmission(const Event& e) {
     r.commands().endLabel();
     r.commands().beginLabel("emit");
     for (uint32_t first = 0; first < c.emitted; first += c.emit_window)
-        recordEmitWindow(e, first);
+        for (uint32_t part = 0; part < c.sourceParts(); part++)
+            recordEmitWindow(e, first, part);
     r.run("emit_objects", Length::counted(COUNT_COMPONENTS), 1 / e.grid.unit(),
           {r.counts(), b.records, b.fates, b.demand_offsets, b.shares, e.scene.draw_commands, e.scene.bounds, e.scene.fragments,
            e.scene.matrices, e.scene.objects, b.parts, b.keys});

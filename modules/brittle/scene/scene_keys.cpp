@@ -137,7 +137,7 @@ constexpr SceneKey kBudgetKeys[] = {
      "convex ones that it begins with, at most; 0: what it needs"},
     {"pairs", at<&BudgetDescription::pairs>, from(0, kMostElements), "", "of pieces that are near, at most; 0: what is needed"},
     {"contacts", at<&BudgetDescription::contacts>, from(0, kMostElements), "", "pairs that touch, at most; 0: what is needed"},
-    {"fragments", at<&BudgetDescription::fragments>, from(0, kMostElements), "", "that there are at a time; 0: 1024"},
+    {"fragments", at<&BudgetDescription::fragments>, from(0, kMostElements), "", "that there are at a time; 0: 4 for each body that can break, from 1024 to 8192"},
     {"fragment_faces", at<&BudgetDescription::fragment_faces>, from(0, kMostElements), "",
      "of the hulls of all of them; 0: 24 for each"},
     {"fragment_triangles", at<&BudgetDescription::fragment_triangles>, from(0, kMostElements), "",

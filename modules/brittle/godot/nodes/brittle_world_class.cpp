@@ -24,7 +24,8 @@ void describeSimulation(ClassRecord& r) {
     countProperty<W>(r, "device", {kHintEnum, "Engine's if there is one:0,Own:1"}, [](W& w) -> uint32_t& { return w.device; });
     countProperty<W>(r, "effects",
                      {kHintFlags, "Gravity:1,Contacts:2,Friction:4,Restitution:8,Fast bodies:16,Sleeping:32,Impact "
-                                  "fracture:64,Fragments break:128,Dust:256,Debris goes:512,Events:1024,Drag:2048"},
+                                  "fracture:64,Fragments break:128,Dust:256,Debris goes:512,Events:1024,Drag:2048,Debris makes "
+                                  "room:4096"},
                      [](W& w) -> uint32_t& { return w.def.effects; });
     r.property(
         "gravity", Type::Vector3, {kHintNone, "suffix:m/s²"},
@@ -133,6 +134,7 @@ void describeConstants(ClassRecord& r) {
     effect("EFFECT_DEBRIS_LIFETIME", BRITTLE_EFFECT_DEBRIS_LIFETIME);
     effect("EFFECT_EVENTS", BRITTLE_EFFECT_EVENTS);
     effect("EFFECT_DRAG", BRITTLE_EFFECT_DRAG);
+    effect("EFFECT_DEBRIS_ROOM", BRITTLE_EFFECT_DEBRIS_ROOM);
 }
 
 } // namespace

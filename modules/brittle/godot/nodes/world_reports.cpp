@@ -121,6 +121,7 @@ void WorldNode::addEmissions(const BrittleBreak& event, std::vector<Emission>& e
     const size_t link = linkOf(event.body.id);
     const Value body = nodeOf(link), by = nodeOf(linkOf(event.hit_by.id));
     const Value position(toEngine(event.position)), normal(toEngine(event.normal));
+    if (event.outcome == BRITTLE_GONE) return;
     if (event.outcome != BRITTLE_BROKE) return warnOfWhole(event);
     const double energy = 0.5 * event.effective_mass * event.speed * event.speed;
     emissions.push_back({body, "impact", {position, normal, event.speed, energy, by, copyOf(link)}});
