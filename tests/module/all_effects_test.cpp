@@ -40,6 +40,7 @@ brittle::BodyDescription cube(double x, double height) {
     body.place = {x, height, 0};
     body.velocity = {0, -4, 0};
     body.material = "chalk";
+    body.surface.restitution = 0.4;
     return body;
 }
 
