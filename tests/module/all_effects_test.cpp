@@ -44,7 +44,7 @@ brittle::BodyDescription cube(double x, double height) {
 
 // Two cubes fall, the second a little later. A third one stands where it can be struck.
 brittle::SceneDescription chalkThatFalls() {
-    brittle::SceneDescription scene = breaking_scenes::sceneOf({cube(0, 0.1), cube(0.3, 0.3), cube(1, 0.05)});
+    brittle::SceneDescription scene = breaking_scenes::sceneOf({cube(0, 0.06), cube(0.3, 0.3), cube(1, 0.05)});
     scene.effects = everyEffect();
     scene.bodies[2].velocity = {0, 0, 0};
     scene.materials.push_back(chalk());
@@ -96,6 +96,13 @@ TEST(SmallAllEffects, BreakBodiesThatFall) {
     EXPECT_GT(sum.impacts, 0u);
     EXPECT_GT(sum.particles, 0u) << "of dust";
     EXPECT_EQ(counts.pool_faults, 0u);
+}
+
+// As few steps as can be, for GPU-assisted validation.
+TEST(SmallAllEffects, BreakABodyAtOnce) {
+    const auto world = worldOf(chalkThatFalls());
+    EXPECT_FALSE(breaking_scenes::stepUntilItBreaks(*world, 3).empty());
+    EXPECT_GT(countsOf(*world).fragments, 1u);
 }
 
 TEST(SmallAllEffects, BreakABodyThatIsStruckByHand) {
