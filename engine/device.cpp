@@ -1,6 +1,7 @@
 #include "engine/device.h"
 
 #include "engine/loader_mutex.h"
+#include "engine/unchecked_kernels.h"
 
 #include <cstdlib>
 #include <optional>
@@ -168,6 +169,8 @@ Result<void> Device::createLogical() {
         queues.push_back({VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority});
     }
     if (features_.push_descriptors) extensions_.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    const auto for_unchecked = extensionsForUncheckedKernels();
+    extensions_.insert(extensions_.end(), for_unchecked.begin(), for_unchecked.end());
     std::vector<const char*> extensions;
     for (const std::string& extension : extensions_)
         extensions.push_back(extension.c_str());
@@ -185,6 +188,9 @@ Result<void> Device::createLogical() {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     info.pEnabledFeatures = &enabled;
+    VkPhysicalDeviceGraphicsPipelineLibraryFeaturesEXT code_in_pipelines{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_GRAPHICS_PIPELINE_LIBRARY_FEATURES_EXT, nullptr, VK_TRUE};
+    if (!for_unchecked.empty()) info.pNext = &code_in_pipelines;
     const VkResult made = [&] {
         const std::lock_guard lock(loaderMutex());
         return instance_vk_.vkCreateDevice(physical_, &info, nullptr, &handle_);

@@ -1,19 +1,26 @@
 #include "engine/pipeline.h"
 
 #include "engine/device.h"
+#include "engine/unchecked_kernels.h"
 
 #include <cstddef>
 
 namespace engine {
 namespace {
 
-Result<VkShaderModule> moduleOf(const Device& device, const PipelineSource& source) {
+VkShaderModuleCreateInfo codeOf(const PipelineSource& source) {
     VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     code.codeSize = source.words.size_bytes();
     code.pCode = source.words.data();
+    return code;
+}
+
+// Without a module for a kernel that stays unchecked.
+Result<VkShaderModule> moduleOf(const Device& device, const std::string& name, const VkShaderModuleCreateInfo& code) {
     VkShaderModule module = VK_NULL_HANDLE;
+    if (leavesUnchecked(device, name)) return module;
     const VkResult made = device.vk().vkCreateShaderModule(device.handle(), &code, nullptr, &module);
-    if (made != VK_SUCCESS) return vulkanError("module of kernel \"" + source.name + "\"", made);
+    if (made != VK_SUCCESS) return vulkanError("module of kernel \"" + name + "\"", made);
     return module;
 }
 
@@ -57,7 +64,8 @@ Result<void> Pipeline::makeLayouts(const PipelineSource& source) {
 }
 
 Result<void> Pipeline::make(const PipelineSource& source) {
-    const auto module = moduleOf(device_, source);
+    const VkShaderModuleCreateInfo code = codeOf(source);
+    const auto module = moduleOf(device_, source.name, code);
     if (!module) return module.error();
     const std::span<const SpecConstant> spec = source.constants;
     std::vector<VkSpecializationMapEntry> entries;
@@ -66,7 +74,7 @@ Result<void> Pipeline::make(const PipelineSource& source) {
     const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(), spec.size_bytes(), spec.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  nullptr,
+                  *module == VK_NULL_HANDLE ? &code : nullptr,
                   0,
                   VK_SHADER_STAGE_COMPUTE_BIT,
                   *module,

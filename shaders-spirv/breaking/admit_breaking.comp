@@ -189,7 +189,8 @@ void measureReach(uint k, uint body, uint lane) {
     float unit = furthestFrom(body, place) / 1048576.0;
     if (lane == 0u) reach_sum = 0u;
     barrier();
-    for (uint t = lane; t < min(trianglesOf(body), most_triangles); t += GROUP_SIZE) { // with more it never breaks
+    uint triangles = min(trianglesOf(body), most_triangles); // with more it never breaks
+    for (uint t = lane; t < triangles; t += GROUP_SIZE) {
         vec2 corners[3];
         for (uint c = 0u; c < 3u; c++) {
             vec3 at = cornerOf(breakable[body].surface.x + 3u * t + c) - place;

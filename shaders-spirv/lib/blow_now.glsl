@@ -41,7 +41,8 @@ Blow blowNow(Mover own, Mover other, vec3 n) {
 // The other object of the same pair, NO_INDEX where there is none.
 uint partnerOf(uint k) {
     if (broken[k].ids.y == NO_INDEX) return NO_INDEX;
-    for (uint j = 0u; j < counts[COUNT_BREAKING] && j < MOST_BREAKING; j++)
+    uint objects = min(counts[COUNT_BREAKING], uint(MOST_BREAKING));
+    for (uint j = 0u; j < objects; j++)
         if (j != k && broken[j].ids.z == broken[k].ids.z) return j;
     return NO_INDEX;
 }

@@ -25,7 +25,7 @@ uint placeInList(uint body) {
 }
 
 void countNeighbors(uint lane) {
-    for (uint pair = lane; pair < world_counts[COUNT_BOX_PAIRS]; pair += GROUP_SIZE) {
+    for (uint pair = lane, pairs = world_counts[COUNT_BOX_PAIRS]; pair < pairs; pair += GROUP_SIZE) {
         uvec2 ids = memory[pair].ids.xy, at = uvec2(placeInList(ids.x), placeInList(ids.y));
         bool both = at.x != NO_INDEX && at.y != NO_INDEX;
         for (uint side = 0u; side < 2u; side++) {
