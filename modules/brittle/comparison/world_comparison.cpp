@@ -66,9 +66,9 @@ private:
     std::array<Kept, 2> kept_;
 };
 
-class Comparer {
+class WorldComparer {
 public:
-    Comparer(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options)
+    WorldComparer(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options)
         : a_(a, "device A"), b_(b, "device B"), options_(options) {}
 
     Result<WorldComparison> run() {
@@ -147,7 +147,7 @@ private:
 } // namespace
 
 Result<WorldComparison> compareWorlds(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options) {
-    return Comparer(a, b, options).run();
+    return WorldComparer(a, b, options).run();
 }
 
 } // namespace brittle
