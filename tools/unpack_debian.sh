@@ -1,4 +1,4 @@
-# Sourced by tools/godot.sh and tools/newer_lavapipe.sh: unpacks packages of a newer Debian suite into a folder of the user's
+# Sourced by tools/godot.sh, tools/newer_lavapipe.sh and tools/fresh_system.sh: unpacks packages of a newer Debian suite into a folder of the user's
 # cache, without root, from the mirror that apt uses. The caller sets `suite` (the Debian suite) and `tool` (its own name, for
 # messages). What is unpacked runs by its own dynamic loader, so nothing of the system changes.
 

@@ -108,7 +108,8 @@ double MeasuredScene::meanWay() const {
 }
 
 double MeasuredScene::kineticEnergy(size_t b) const {
-    return 0.5 * speed(b) * speed(b) / now_[b].offset.w + 0.5 * brittle::dot(vectorOf(now_[b].momentum), vectorOf(now_[b].spin));
+    return 0.5 * speed(b) * speed(b) / now_[b].offset.w +
+           0.5 * brittle::dot(vectorOf(now_[b].momentum), vectorOf(now_[b].spin));
 }
 
 double MeasuredScene::kineticEnergy() const {
@@ -136,14 +137,16 @@ double MeasuredScene::angularMomentumInAll() const {
     double sum = 0;
     for (size_t b = 0; b < now_.size(); ++b)
         if (moves(b))
-            sum += sizeOf(vectorOf(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), vectorOf(now_[b].velocity)));
+            sum += sizeOf(vectorOf(now_[b].momentum) +
+                          (1.0 / now_[b].offset.w) * brittle::cross(place(b), vectorOf(now_[b].velocity)));
     return sum;
 }
 
 Double3 MeasuredScene::angularMomentum() const {
     Double3 sum = {0, 0, 0};
     for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) sum += vectorOf(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), vectorOf(now_[b].velocity));
+        if (moves(b))
+            sum += vectorOf(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), vectorOf(now_[b].velocity));
     return sum;
 }
 

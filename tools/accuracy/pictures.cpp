@@ -20,8 +20,8 @@ using engine::Result;
 
 constexpr cli::PictureSize kSize = {640, 480};
 constexpr double kExplode = 0.25, kSeconds = 3;
-constexpr int kNoticedShade = 24;  // of 255, in any channel
-constexpr int kMarkReach = 2; // pixels
+constexpr int kNoticedShade = 24; // of 255, in any channel
+constexpr int kMarkReach = 2;     // pixels
 constexpr std::array<uint8_t, 3> kMark = {200, 0, 90};
 
 std::string base64(const std::string& bytes) {

@@ -37,7 +37,7 @@ struct CellSamples {
 };
 
 engine::Result<CellSamples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
-                                  const std::vector<Point>& sites, const BenchOptions& options) {
+                                      const std::vector<Point>& sites, const BenchOptions& options) {
     CellSamples samples;
     if (auto warm_up = ourCells(fracture, cube, sites); !warm_up) return warm_up.error();
     for (uint32_t round = 0; round < options.rounds; ++round) {

@@ -45,7 +45,7 @@ ShatterRow rowOf(uint32_t count, size_t triangles, const ShatterSamples& samples
 }
 
 engine::Result<ShatterSamples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& model, uint32_t count,
-                                  const BenchOptions& options, bool with_peer) {
+                                         const BenchOptions& options, bool with_peer) {
     const std::vector<Point> sites = uniformSites(count, options.seed);
     ShatterSamples warm_up, samples;
     if (auto done = runOurs(fracture, model, sites, warm_up); !done) return done.error();

@@ -9,7 +9,7 @@ namespace cli {
 namespace {
 
 std::mutex begun_mutex;
-std::vector<std::filesystem::path> begun; // named after this process, so that what is still there is ours
+std::vector<std::filesystem::path> begun;        // named after this process, so that what is still there is ours
 std::vector<std::filesystem::path> made_folders; // folders, the outermost first
 std::vector<std::function<void()>> actions;
 

@@ -70,7 +70,8 @@ void recordSearch(Recorder& r, const BroadPhase& p) {
 
 void recordPairOrder(Recorder& r, const BroadPhase& p) {
     const auto& s = p.scratch;
-    r.run("place_pairs", kTreePairs, engine::NoPush{}, {r.counts(), s.found_pairs, s.pair_offsets, s.loose_pairs, s.long_lists});
+    r.run("place_pairs", kTreePairs, engine::NoPush{},
+          {r.counts(), s.found_pairs, s.pair_offsets, s.loose_pairs, s.long_lists});
     r.runGroups("publish_pairs", 1, engine::NoPush{}, {r.counts(), r.args()});
     r.run("order_pairs", kTreePairs, engine::NoPush{}, {r.counts(), s.pair_offsets, s.loose_pairs, p.pairs});
     r.runGroups("order_long_lists", r.groupsOf(COUNT_LONG_LISTS), engine::NoPush{},

@@ -24,7 +24,9 @@ Transform toTransform(const aiMatrix4x4& m) {
             {static_cast<double>(m[0][3]), static_cast<double>(m[1][3]), static_cast<double>(m[2][3])}};
 }
 
-Double3 doublesOf(const aiVector3D& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+Double3 doublesOf(const aiVector3D& v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 class SceneFlattener {
 public:
