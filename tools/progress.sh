@@ -13,11 +13,13 @@ rewrite_line() {
 }
 
 watch_progress() {
-  local text=$1 state=${2:-true} start=$SECONDS wait=10 line
+  local text=$1 state=${2:-true} start=$SECONDS wait=10 line now
   [ ! -t 1 ] || wait=0.5
   while sleep "$wait" >/dev/null 2>&1; do # holds no pipe open when it outlives this function
-    line="$text: $((SECONDS - start)) s  $($state)"
-    if [ -t 1 ]; then rewrite_line "$line"; else echo "${line%% }"; fi
+    line="$text: $((SECONDS - start)) s"
+    now=$($state)
+    [ -z "$now" ] || line+=", $now"
+    if [ -t 1 ]; then rewrite_line "$line"; else echo "$line"; fi
   done
 }
 

@@ -46,7 +46,7 @@ function(unite_target target alone)
     foreach(folder ${folders})
         group_sources(${folder} ${sources_of_${folder}})
     endforeach()
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP UNITY_BUILD_RELOCATABLE ON)
 endfunction()
 
 function(unite_sources)
