@@ -50,7 +50,7 @@ private:
         auto saved = named(compared_.world.save());
         if (!saved) return saved.error();
         if (kept_[1].is_there()) kept_[0] = std::move(kept_[1]);
-        (kept_[0].is_there() ? kept_[1] : kept_[0]) = {made_, std::move(*saved)};
+        (kept_[0].is_there() ? kept_[1] : kept_[0]) = Kept{made_, std::move(*saved)};
         return {};
     }
     template <class T>
