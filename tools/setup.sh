@@ -14,7 +14,8 @@ run=(
   # Vulkan: headers, loader, and a device for machines without a GPU
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers
   # libraries
-  libassimp-dev libcli11-dev libdraco-dev libeigen3-dev libmeshoptimizer-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
+  libassimp-dev libcli11-dev libdraco-dev libeigen3-dev libmeshoptimizer-dev libqhull-dev libstb-dev libtinygltf-dev
+  libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev
   # the window and the allocator of shader_reload, which does without both
   libglfw3-dev libmimalloc-dev
 )
