@@ -1,21 +1,40 @@
 #!/usr/bin/env bash
 # tools/demo.sh: sets up, builds, and shatters a built-in model: a twisted ring, not convex, with a hole through it. Leaves the
-# fragments in out/demo.glb and a picture of them, moved apart, in out/demo.png. Then two seconds of a scene in which a ball breaks a
-# window pane: as an animation in out/window_pane.glb and, where ffmpeg is there, as a film in out/window_pane.mp4.
+# fragments in out/demo.glb and a picture of them, moved apart, in out/demo.png. Then two seconds of a scene in which a ball
+# breaks a window pane: as an animation in out/window_pane.glb and, where ffmpeg is there, as a film in out/window_pane.mp4.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tools/progress.sh
 
 tools/setup.sh
 tools/build.sh release brittle
 mkdir -p out
-brittle=build/release/bin/brittle
-"$brittle" shatter builtin:ring -o out/demo.glb --sites 60 --seed 1 --verify \
-  --picture out/demo.png --explode 0.35 </dev/null
+start=$SECONDS
+log=$(mktemp)
+trap 'end_progress; rm -f "$log"' EXIT
+
+# shown TEXT ARG...: runs brittle with these arguments, shows that it goes on, and then what it said.
+shown() {
+  local status=0
+  echo "demo: $1"
+  show_progress "demo: $1"
+  shift
+  build/release/bin/brittle "$@" >"$log" 2>&1 </dev/null || status=$?
+  end_progress
+  cat "$log"
+  return "$status"
+}
 
 scene=modules/brittle/scene/examples/window_pane.toml
-"$brittle" simulate "$scene" -o out/window_pane.glb --seconds 2 </dev/null
+if [ ! -d "${XDG_CACHE_HOME:-$HOME/.cache}/mesa_shader_cache" ]; then
+  echo "demo: a driver that has no cache yet compiles kernels first, which takes some seconds"
+fi
+shown "breaking a ring into out/demo.glb and out/demo.png" shatter builtin:ring -o out/demo.glb --sites 60 --seed 1 --verify \
+  --picture out/demo.png --explode 0.35
+shown "simulating two seconds of a window pane into out/window_pane.glb" simulate "$scene" -o out/window_pane.glb --seconds 2
 if command -v ffmpeg >/dev/null; then
-  "$brittle" simulate "$scene" -o out/window_pane.mp4 --seconds 2 </dev/null
+  shown "filming them into out/window_pane.mp4" simulate "$scene" -o out/window_pane.mp4 --seconds 2
 else
   echo "demo: no film, since there is no program ffmpeg"
 fi
+echo "demo: done in $((SECONDS - start)) s"

@@ -5,6 +5,7 @@
 #   bench  that, and the programs that the benchmark compares with
 # Installs nothing and asks nobody if all of it is there.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 
 run=(
   # compilers and build
@@ -13,7 +14,8 @@ run=(
   # Vulkan: headers, loader, and a device for machines without a GPU
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers
   # libraries
-  libassimp-dev libcli11-dev libdraco-dev libeigen3-dev libmeshoptimizer-dev libqhull-dev libstb-dev libtinygltf-dev libtomlplusplus-dev nlohmann-json3-dev
+  libassimp-dev libcli11-dev libdraco-dev libeigen3-dev libmeshoptimizer-dev libqhull-dev libstb-dev libtinygltf-dev
+  libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev
   # the window and the allocator of shader_reload, which does without both
   libglfw3-dev libmimalloc-dev
 )
@@ -30,6 +32,8 @@ test=(
   busybox-static libegl1 libglx0 libxext6
   # hard cases run on Bullet, too
   libbullet-dev
+  # bare systems of other Debian suites, for tools/fresh_system.sh
+  mmdebstrap
 )
 bench=(libbullet-dev libcgal-dev libgmp-dev libmpfr-dev voro++-dev)
 
@@ -62,6 +66,28 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
+# Runs apt-get; prints what it said only if it fails.
+quietly() {
+  if ! as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C "$@" >"$log" 2>&1 </dev/null; then
+    end_progress
+    tail -n 30 "$log" >&2
+    echo "setup: failed: $*; check the network and the lists of packages in /etc/apt" >&2
+    exit 1
+  fi
+}
+
+# Prints how many packages apt would install for these, and how many bytes it would download.
+size_of() {
+  apt-get install -y -s --no-install-recommends "$@" 2>/dev/null | grep -c '^Inst ' | tr '\n' ' '
+  apt-get install -y -qq --print-uris --no-install-recommends "$@" 2>/dev/null | awk '{sum += $3} END {printf "%.0f\n", sum}'
+}
+
+# Prints how far apt is, by what it has said.
+install_state() {
+  awk -v all="$packages" '/^Get:/ {got++} /^Unpacking / {unpacked++} /^Setting up / {ready++}
+    END {printf "downloaded %d, unpacked %d, ready %d of %d packages", got, unpacked, ready, all}' "$log"
+}
+
 wanted=("${run[@]}")
 for group in "$@"; do
   case $group in
@@ -79,8 +105,19 @@ if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
   exit 1
 fi
 
-echo "setup: reading package lists"
-as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq </dev/null
+as_root true # asks for a password before anything else is printed
+log=$(mktemp)
+trap 'end_progress; rm -f "$log"' EXIT
+start=$SECONDS
+
+show_progress "setup: reading package lists"
+quietly apt-get update -q
+end_progress
 missing=$(missing_of "${wanted[@]}" | sort -u)
-echo "setup: installing" $missing
-as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing </dev/null
+read -r packages bytes < <(size_of $missing)
+megabytes=$(((bytes + 500000) / 1000000))
+echo "setup: installing $packages packages, $megabytes MB to download:" $missing
+show_progress "setup" install_state
+quietly apt-get install -y -q --no-install-recommends $missing
+end_progress
+echo "setup: installed $packages packages, $megabytes MB, in $((SECONDS - start)) s"

@@ -5,6 +5,7 @@
 #   gpu_assisted  a part under the layer's check of each access of a kernel
 #   asan          a part under the address and undefined-behavior sanitizers
 #   fuzz          the fuzzers of importers, scene files and the C ABI, for about two minutes (tools/fuzz.sh runs them for longer)
+#   fresh_system  the demo on a bare system of another Debian suite (tools/fresh_system.sh); skipped where none can be made
 # --long adds every model there is (tools/corpus.sh fetches some), larger models, more sites and seeds, the slow cases of the
 # kernels, and all small tests under the check of each access.
 set -euo pipefail
@@ -24,13 +25,16 @@ summary=()
 ctest_steps=()
 failed=false
 
-# step NAME COMMAND...: runs on after a failure, so that one run tells all.
+# step NAME COMMAND...: runs on after a failure, so that one run tells all. Exit code 77 means that a step cannot run here.
 step() {
-  local name=$1 start=$SECONDS verdict=passed
+  local name=$1 start=$SECONDS verdict=passed status=0
   shift
   if [ "$1" = ctest ]; then ctest_steps+=("$name"); fi
   echo "== $name"
-  if ! "$@" </dev/null 2>&1 | tee "$logs/$name.log"; then
+  "$@" </dev/null 2>&1 | tee "$logs/$name.log" || status=$?
+  if [ "$status" = 77 ]; then
+    verdict=skipped
+  elif [ "$status" != 0 ]; then
     verdict=FAILED
     failed=true
   fi
@@ -49,6 +53,17 @@ show_findings() {
   done
 }
 
+# Runs the demo on a suite that this system is not.
+run_fresh_system() {
+  local suite=trixie
+  if grep -qs '^VERSION_CODENAME=trixie$' /etc/os-release; then suite=bookworm; fi
+  if [ "$(id -u)" = 0 ]; then
+    tools/fresh_system.sh --ccache "$suite"
+  else
+    sudo -n tools/fresh_system.sh --ccache "$suite"
+  fi
+}
+
 step build tools/build.sh release all
 if $failed; then exit 1; fi
 step release ctest --preset release --label-regex '^quick$' --no-tests=error --parallel 2
@@ -60,6 +75,7 @@ step asan ctest --preset asan --label-regex '^asan$' --no-tests=error --parallel
 step build-fuzz tools/build.sh fuzz
 step fuzz ctest --preset fuzz --label-regex '^fuzz$' --no-tests=error --parallel 2
 show_findings
+step fresh_system run_fresh_system
 if $long; then
   step corpus tools/corpus.sh
   step long ctest --preset release --label-regex '^long$' --no-tests=error

@@ -1,6 +1,6 @@
-# Sourced by tools/godot.sh and tools/newer_lavapipe.sh: unpacks packages of a newer Debian suite into a folder of the user's
-# cache, without root, from the mirror that apt uses. The caller sets `suite` (the Debian suite) and `tool` (its own name, for
-# messages). What is unpacked runs by its own dynamic loader, so nothing of the system changes.
+# Sourced by tools/godot.sh and tools/newer_lavapipe.sh, and by tools/fresh_system.sh for the mirror: unpacks packages of a newer
+# Debian suite into a folder of the user's cache, without root, from the mirror that apt uses. The caller sets `suite` (the Debian
+# suite) and `tool` (its own name, for messages). What is unpacked runs by its own dynamic loader, so nothing of the system changes.
 
 unpacked_lib=root/usr/lib/x86_64-linux-gnu # below the folder
 unpacked_loader=root/usr/lib64/ld-linux-x86-64.so.2

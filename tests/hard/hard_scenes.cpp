@@ -11,7 +11,7 @@ namespace {
 
 constexpr bool kLong = true;
 
-constexpr SceneCase kCases[] = {
+constexpr SceneCase kSceneCases[] = {
     {"hard_01_block_100", staysAtRest},
     {"hard_01_block_500", staysAtRest},
     {"hard_01_block_2000", staysAtRest, 0, kLong},
@@ -131,6 +131,6 @@ bool judgesMotionAlone(const SceneCase& self) {
     return std::ranges::find(kJudgesOfMotion, self.measure) != std::end(kJudgesOfMotion);
 }
 
-std::span<const SceneCase> sceneCases() { return kCases; }
+std::span<const SceneCase> sceneCases() { return kSceneCases; }
 
 } // namespace hard

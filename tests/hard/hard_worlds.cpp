@@ -14,7 +14,7 @@ using brittle::World, brittle::WorldBudget;
 constexpr double kBall = 0.1;              // m, radius
 constexpr uint32_t kFall = 60, kRest = 60; // steps
 
-constexpr PoolCase kCases[] = {
+constexpr PoolCase kPoolCases[] = {
     {"full pools of bodies and pieces",
      [](WorldBudget& b) {
          b.breaking.fragments = 20;
@@ -98,7 +98,7 @@ void checkBall(Trial& trial, World& world) {
 
 } // namespace
 
-std::span<const PoolCase> poolCases() { return kCases; }
+std::span<const PoolCase> poolCases() { return kPoolCases; }
 
 void measurePool(Trial& trial, const PoolCase& self) {
     WorldBudget budget;

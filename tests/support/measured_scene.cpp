@@ -19,7 +19,7 @@ bool hasCells(const brittle::SceneDescription& scene) {
     return std::ranges::any_of(scene.bodies, [](const brittle::BodyDescription& b) { return b.shape.cells.sites != 0; });
 }
 
-Double3 xyz(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
+Double3 vectorOf(const gpu::vec4& v) { return {v.x, v.y, v.z}; }
 
 double sizeOf(const Double3& v) { return std::sqrt(brittle::dot(v, v)); }
 
@@ -34,7 +34,7 @@ Double3 turnedBySpin(const Double3& v, const Double3& angles) {
 
 // How far the arcs of a hull's points lead beyond their chords, at most.
 double bulgeOf(const gpu::HullRecord& hull, double angle) {
-    return (sizeOf(xyz(hull.center)) + hull.center.w) * (1 - std::cos(std::min(angle, 2 * std::numbers::pi) / 2));
+    return (sizeOf(vectorOf(hull.center)) + hull.center.w) * (1 - std::cos(std::min(angle, 2 * std::numbers::pi) / 2));
 }
 
 } // namespace
@@ -81,7 +81,7 @@ engine::Result<void> MeasuredScene::advance(uint32_t steps) {
 
 Double3 MeasuredScene::place(size_t body) const { return poseOf(now_[body]).place; }
 Double3 MeasuredScene::way(size_t body) const { return poseOf(now_[body]).place - poseOf(first_[body]).place; }
-double MeasuredScene::speed(size_t body) const { return sizeOf(xyz(now_[body].velocity)); }
+double MeasuredScene::speed(size_t body) const { return sizeOf(vectorOf(now_[body].velocity)); }
 
 double MeasuredScene::fastest() const {
     double most = 0;
@@ -108,7 +108,8 @@ double MeasuredScene::meanWay() const {
 }
 
 double MeasuredScene::kineticEnergy(size_t b) const {
-    return 0.5 * speed(b) * speed(b) / now_[b].offset.w + 0.5 * brittle::dot(xyz(now_[b].momentum), xyz(now_[b].spin));
+    return 0.5 * speed(b) * speed(b) / now_[b].offset.w +
+           0.5 * brittle::dot(vectorOf(now_[b].momentum), vectorOf(now_[b].spin));
 }
 
 double MeasuredScene::kineticEnergy() const {
@@ -121,7 +122,7 @@ double MeasuredScene::kineticEnergy() const {
 Double3 MeasuredScene::momentum() const {
     Double3 sum = {0, 0, 0};
     for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) sum += (1.0 / now_[b].offset.w) * xyz(now_[b].velocity);
+        if (moves(b)) sum += (1.0 / now_[b].offset.w) * vectorOf(now_[b].velocity);
     return sum;
 }
 
@@ -136,14 +137,16 @@ double MeasuredScene::angularMomentumInAll() const {
     double sum = 0;
     for (size_t b = 0; b < now_.size(); ++b)
         if (moves(b))
-            sum += sizeOf(xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity)));
+            sum += sizeOf(vectorOf(now_[b].momentum) +
+                          (1.0 / now_[b].offset.w) * brittle::cross(place(b), vectorOf(now_[b].velocity)));
     return sum;
 }
 
 Double3 MeasuredScene::angularMomentum() const {
     Double3 sum = {0, 0, 0};
     for (size_t b = 0; b < now_.size(); ++b)
-        if (moves(b)) sum += xyz(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), xyz(now_[b].velocity));
+        if (moves(b))
+            sum += vectorOf(now_[b].momentum) + (1.0 / now_[b].offset.w) * brittle::cross(place(b), vectorOf(now_[b].velocity));
     return sum;
 }
 
@@ -164,10 +167,10 @@ std::vector<reference::SolidBox> MeasuredScene::sweptBoxes(double more) const {
         reference::Bounds bounds;
         for (const reference::Point& v : pieceInWorld(contents_, p, poseOf(state)).vertices) {
             bounds.grow(v);
-            const Double3 arm = turnedBySpin(v - place, scene_.step.dt * xyz(state.spin));
-            if (moves(body)) bounds.grow(place + arm + scene_.step.dt * xyz(state.velocity));
+            const Double3 arm = turnedBySpin(v - place, scene_.step.dt * vectorOf(state.spin));
+            if (moves(body)) bounds.grow(place + arm + scene_.step.dt * vectorOf(state.velocity));
         }
-        const double angle = moves(body) ? scene_.step.dt * sizeOf(xyz(state.spin)) : 0;
+        const double angle = moves(body) ? scene_.step.dt * sizeOf(vectorOf(state.spin)) : 0;
         const double around = margin + bulgeOf(contents_.hulls.records[contents_.pieces[p].ids.x], angle);
         reference::SolidBox box = {.body = body, .fixed = !moves(body)};
         const bool is_plane = (contents_.pieces[p].ids.z & PIECE_PLANE) != 0; // endless, but straight up

@@ -19,7 +19,7 @@ if(TARGET brittle)
 
     set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
     set(version_header ${generated}/tools/accuracy/version.h)
-    add_custom_target(brittle_version BYPRODUCTS ${version_header} COMMAND ${CMAKE_COMMAND}
+    add_custom_target(brittle_version BYPRODUCTS ${version_header} COMMENT "version of brittle" COMMAND ${CMAKE_COMMAND}
         -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
         "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_BUILD_TYPE}" -DOUTPUT=${version_header}
         -P ${accuracy_dir}/version.cmake)

@@ -87,7 +87,7 @@ double timeOfColliders(const brittle::FractureResult& result) {
 struct ColliderWorkload {
     const char *name, *model, *what;
 };
-constexpr ColliderWorkload kWorkloads[] = {
+constexpr ColliderWorkload kColliderWorkloads[] = {
     {"bumpy_20480_colliders", "builtin:bumpy:5", "100 fragments of the ball with bumps and hollows, 20480 triangles"},
     {"ring_colliders", "builtin:ring", "100 fragments of the twisted ring, which has a hole and bends"},
 };
@@ -98,7 +98,7 @@ Result<void> sweepColliders(Sweep& sweep) {
     addKind(sweep.results, kExcess);
     addKind(sweep.results, kReach);
     double before = 0;
-    for (const ColliderWorkload& workload : kWorkloads) {
+    for (const ColliderWorkload& workload : kColliderWorkloads) {
         auto model = soundModel(workload.model);
         if (!model) return model.error();
         FractureCase one;
@@ -111,7 +111,7 @@ Result<void> sweepColliders(Sweep& sweep) {
         one.model = std::move(*model);
         one.settings = colliderSettings();
         one.before = before;
-        one.share = 1.0 / std::size(kWorkloads);
+        one.share = 1.0 / std::size(kColliderWorkloads);
         before += one.share;
         const double diagonal = reference::boundsOf(support::trianglesOf(one.model.mesh)).diagonal();
         FractureMeasures measures;

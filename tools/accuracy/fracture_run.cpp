@@ -13,7 +13,7 @@ using brittle::FractureOptions;
 using brittle::FractureResult;
 using engine::Result;
 
-constexpr uint32_t kFewestRounds = 3; // that have a median and quartiles
+constexpr uint32_t kFewestBreaks = 3; // that have a median and quartiles
 
 template <class T>
 bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -25,7 +25,7 @@ bool sameFragments(const FractureResult& a, const FractureResult& b) {
 }
 
 // One setting of the case, with a fracturer of its own, so that its memory can be told.
-struct Candidate {
+struct FractureCandidate {
     const FractureSetting* setting;
     FractureOptions options;
     std::unique_ptr<brittle::Fracture> fracture;
@@ -42,10 +42,10 @@ public:
         for (const FractureSetting& setting : case_.settings)
             if (auto added = addCandidate(setting); !added) return added;
         uint32_t round = 0;
-        for (; round < sweep_.options.rounds() && !(round >= kFewestRounds && sweep_.isLate()); ++round)
+        for (; round < sweep_.options.rounds() && !(round >= kFewestBreaks && sweep_.isLate()); ++round)
             if (auto done = runRound(round); !done) return done;
         sweep_.results.machine.rounds = std::min(sweep_.results.machine.rounds, round);
-        for (Candidate& candidate : candidates_) {
+        for (FractureCandidate& candidate : candidates_) {
             candidate.measurement.ms = samplesOf(std::move(candidate.ms));
             sweep_.results.measurements.push_back(std::move(candidate.measurement));
         }
@@ -55,7 +55,7 @@ public:
 private:
     Result<void> runRound(uint32_t round) {
         for (size_t k = 0; k < candidates_.size(); ++k) { // another one begins each round
-            Candidate& candidate = candidates_[(k + round) % candidates_.size()];
+            FractureCandidate& candidate = candidates_[(k + round) % candidates_.size()];
             showRound(round);
             if (candidate.measurement.failed.empty())
                 if (auto timed = runOnce(candidate); !timed) return timed.error();
@@ -71,7 +71,7 @@ private:
     // The first run compiles and is not timed; errors are those of its result.
     Result<void> addCandidate(const FractureSetting& setting) {
         sweep_.progress.show(case_.workload.name + ", " + setting.setting, case_.before);
-        Candidate& candidate = candidates_.emplace_back();
+        FractureCandidate& candidate = candidates_.emplace_back();
         candidate.setting = &setting;
         candidate.options = case_.base;
         setting.apply(candidate.options);
@@ -93,20 +93,20 @@ private:
     }
 
     // Without its default a workload has nothing to compare with.
-    Result<void> noteFailure(Candidate& candidate, const engine::Error& error) const {
+    Result<void> noteFailure(FractureCandidate& candidate, const engine::Error& error) const {
         if (candidate.measurement.is_default) return engine::Error{error.code, case_.workload.name + ": " + error.message};
         candidate.measurement.failed = error.message;
         return {};
     }
 
-    void findErrors(Candidate& candidate, const FractureResult& result) {
+    void findErrors(FractureCandidate& candidate, const FractureResult& result) {
         if (!default_ && measures_.prepare) measures_.prepare(result);
         const bool is_same = default_ && sameFragments(*default_, result) && candidate.options.collider == case_.base.collider;
         candidate.measurement.errors =
             is_same ? candidates_.front().measurement.errors : measures_.errors(result, candidate.options);
     }
 
-    Result<void> runOnce(Candidate& candidate) const {
+    Result<void> runOnce(FractureCandidate& candidate) const {
         const auto result = candidate.fracture->shatter(case_.model.mesh, case_.model.topology, candidate.options);
         if (!result) return noteFailure(candidate, result.error());
         candidate.ms.push_back(measures_.time(*result));
@@ -116,7 +116,7 @@ private:
     Sweep& sweep_;
     const FractureCase& case_;
     const FractureMeasures& measures_;
-    std::vector<Candidate> candidates_;
+    std::vector<FractureCandidate> candidates_;
     std::optional<FractureResult> default_;
 };
 

@@ -21,7 +21,7 @@ struct FractureWorkload {
 constexpr uint32_t kLatticeSide = 5;
 constexpr const char* kLattice = "cube_lattice_125";
 
-const FractureWorkload kWorkloads[] = {
+const FractureWorkload kFractureWorkloads[] = {
     {"bumpy_20480", "builtin:bumpy:5", "A ball with bumps and hollows, 20480 triangles, in 100 cells", 100, 100,
      &kinds::kTurned, .35},
     {"icosphere_42", "builtin:icosphere:1", "The paper's model, a ball of 42 vertices, in 100 cells", 100, 100,
@@ -83,7 +83,7 @@ Result<void> sweepFracture(Sweep& sweep) {
     addKinds(sweep.results);
     const double share = 1.0 / (1.0 + 0.2 * static_cast<double>(sweep.options.models.size()));
     double before = 0;
-    for (const FractureWorkload& workload : kWorkloads) {
+    for (const FractureWorkload& workload : kFractureWorkloads) {
         auto model = soundModel(workload.model);
         if (!model) return model.error();
         FractureCase one = caseOf(workload, std::move(*model), sweep.options);

@@ -20,8 +20,8 @@ using engine::Result;
 
 constexpr cli::PictureSize kSize = {640, 480};
 constexpr double kExplode = 0.25, kSeconds = 3;
-constexpr int kNoticed = 24;  // of 255, in any channel
-constexpr int kMarkReach = 2; // pixels
+constexpr int kNoticedShade = 24; // of 255, in any channel
+constexpr int kMarkReach = 2;     // pixels
 constexpr std::array<uint8_t, 3> kMark = {200, 0, 90};
 
 std::string base64(const std::string& bytes) {
@@ -48,7 +48,7 @@ bool differAt(const Picture& a, const Picture& b, size_t pixel) {
     int most = 0;
     for (size_t k = 0; k < 3; ++k)
         most = std::max(most, std::abs(int{a.pixels[4 * pixel + k]} - int{b.pixels[4 * pixel + k]}));
-    return most > kNoticed;
+    return most > kNoticedShade;
 }
 
 // Gray and pale, so that marks stand out.

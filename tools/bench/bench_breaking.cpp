@@ -125,11 +125,11 @@ double percentileOf(std::vector<double> samples, double share) {
     return samples[static_cast<size_t>(std::llround(share * static_cast<double>(samples.size() - 1)))];
 }
 
-struct Samples {
+struct BreakingSamples {
     std::vector<double> all, before, breaking, next, after; // ms
 };
 
-void addTo(Samples& samples, const std::vector<Frame>& frames, BreakingRow& row) {
+void addTo(BreakingSamples& samples, const std::vector<Frame>& frames, BreakingRow& row) {
     const auto first = std::ranges::find_if(frames, [](const Frame& frame) { return frame.broken != 0; });
     for (const Frame& frame : frames)
         samples.all.push_back(frame.ms);
@@ -150,7 +150,7 @@ Result<BreakingRow> benchCase(engine::Device& device, const BreakingCase& what, 
     const auto start = (*world)->save();
     if (!start) return start.error();
     BreakingRow row = {what, effects};
-    Samples samples;
+    BreakingSamples samples;
     for (uint32_t round = 0; round <= options.rounds; ++round) {
         const auto run = runFrames(**world);
         if (!run) return run.error();

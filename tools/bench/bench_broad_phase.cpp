@@ -118,11 +118,11 @@ private:
     Buffer low_, high_, pairs_, counts_, args_;
 };
 
-struct Samples {
+struct PhaseSamples {
     std::vector<double> ours, built, moved; // milliseconds
 };
 
-Result<void> runOnce(OurBoxes& ours, BulletBoxes* kept, const std::vector<BoxOfSpace>& boxes, Samples& samples) {
+Result<void> runOnce(OurBoxes& ours, BulletBoxes* kept, const std::vector<BoxOfSpace>& boxes, PhaseSamples& samples) {
     const auto took = ours.find(boxes);
     if (!took) return took.error();
     samples.ours.push_back(*took);
@@ -138,7 +138,7 @@ Result<BroadPhaseRow> benchBoxes(engine::Device& device, uint32_t count, const B
     if (auto prepared = ours.prepare(); !prepared) return prepared.error();
     const auto kept = options.peers ? BulletBoxes::create() : nullptr;
     if (kept) kept->build(heap);
-    Samples warm_up, samples;
+    PhaseSamples warm_up, samples;
     for (uint32_t round = 0; round <= options.rounds; ++round) {
         const std::vector<BoxOfSpace> boxes = moved(heap, options.seed + 1, round + 1);
         if (auto done = runOnce(ours, kept.get(), boxes, round == 0 ? warm_up : samples); !done) return done.error();

@@ -7,12 +7,12 @@
 namespace bench {
 namespace {
 
-struct Samples {
+struct CapSamples {
     std::vector<double> call, caps; // milliseconds
 };
 
 engine::Result<void> measureOnce(brittle::Fracture& fracture, const brittle::PreparedMesh& model,
-                                 const brittle::FractureOptions& options, Samples& samples) {
+                                 const brittle::FractureOptions& options, CapSamples& samples) {
     const auto begin = std::chrono::steady_clock::now();
     auto result = fracture.shatter(model.mesh, model.topology, options);
     const std::chrono::duration<double, std::milli> call = std::chrono::steady_clock::now() - begin;
@@ -27,7 +27,7 @@ engine::Result<CapsRow> alternate(brittle::Fracture& fracture, const brittle::Pr
     brittle::FractureOptions exact, convex;
     exact.given_sites = convex.given_sites = uniformSites(count, options.seed);
     convex.caps = brittle::Caps::Convex;
-    Samples warm_up, of_exact, of_convex;
+    CapSamples warm_up, of_exact, of_convex;
     for (uint32_t round = 0; round <= options.rounds; ++round) {
         if (auto done = measureOnce(fracture, model, exact, round == 0 ? warm_up : of_exact); !done) return done.error();
         if (auto done = measureOnce(fracture, model, convex, round == 0 ? warm_up : of_convex); !done) return done.error();

@@ -32,13 +32,13 @@ auto settled(const auto& run) {
     return run();
 }
 
-struct Samples {
+struct CellSamples {
     std::vector<double> cut, link, voropp;
 };
 
-engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
-                                  const std::vector<Point>& sites, const BenchOptions& options) {
-    Samples samples;
+engine::Result<CellSamples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& cube,
+                                      const std::vector<Point>& sites, const BenchOptions& options) {
+    CellSamples samples;
     if (auto warm_up = ourCells(fracture, cube, sites); !warm_up) return warm_up.error();
     for (uint32_t round = 0; round < options.rounds; ++round) {
         const auto ms = settled([&] { return ourCells(fracture, cube, sites); });

@@ -9,7 +9,7 @@
 namespace bench {
 namespace {
 
-struct Samples {
+struct ShatterSamples {
     std::vector<double> call, device, cgal; // milliseconds
 
     std::map<std::string, std::vector<double>> stages;
@@ -18,7 +18,7 @@ struct Samples {
 };
 
 engine::Result<void> runOurs(brittle::Fracture& fracture, const brittle::PreparedMesh& model, const std::vector<Point>& sites,
-                             Samples& samples) {
+                             ShatterSamples& samples) {
     brittle::FractureOptions options;
     options.given_sites = sites;
     const auto begin = std::chrono::steady_clock::now();
@@ -36,7 +36,7 @@ engine::Result<void> runOurs(brittle::Fracture& fracture, const brittle::Prepare
     return {};
 }
 
-ShatterRow rowOf(uint32_t count, size_t triangles, const Samples& samples) {
+ShatterRow rowOf(uint32_t count, size_t triangles, const ShatterSamples& samples) {
     ShatterRow row{count, triangles, samples.fragments, median(samples.call), median(samples.device), median(samples.cgal),
                    {},    {}};
     for (const std::string& name : samples.stage_order)
@@ -44,10 +44,10 @@ ShatterRow rowOf(uint32_t count, size_t triangles, const Samples& samples) {
     return row;
 }
 
-engine::Result<Samples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& model, uint32_t count,
-                                  const BenchOptions& options, bool with_peer) {
+engine::Result<ShatterSamples> alternate(brittle::Fracture& fracture, const brittle::PreparedMesh& model, uint32_t count,
+                                         const BenchOptions& options, bool with_peer) {
     const std::vector<Point> sites = uniformSites(count, options.seed);
-    Samples warm_up, samples;
+    ShatterSamples warm_up, samples;
     if (auto done = runOurs(fracture, model, sites, warm_up); !done) return done.error();
     for (uint32_t round = 0; round < options.rounds; ++round) {
         if (auto done = runOurs(fracture, model, sites, samples); !done) return done.error();

@@ -9,8 +9,8 @@ namespace cli {
 namespace {
 
 std::mutex begun_mutex;
-std::vector<std::filesystem::path> begun; // named after this process, so that what is still there is ours
-std::vector<std::filesystem::path> made;  // folders, the outermost first
+std::vector<std::filesystem::path> begun;        // named after this process, so that what is still there is ours
+std::vector<std::filesystem::path> made_folders; // folders, the outermost first
 std::vector<std::function<void()>> actions;
 
 // Signals that are ignored when the program starts stay so: nohup wants that.
@@ -49,7 +49,7 @@ void removeBegun() {
     std::error_code ignored;
     for (const std::filesystem::path& path : begun)
         std::filesystem::remove(path, ignored);
-    removeEmpty(made);
+    removeEmpty(made_folders);
 }
 
 // As if nobody had waited for it.
@@ -91,7 +91,7 @@ engine::Result<OutputFolder> OutputFolder::create(const std::filesystem::path& p
     OutputFolder folder; // before the lock, which it takes where it goes
     const std::lock_guard lock(begun_mutex);
     folder.made_ = missingFolders(path);
-    made.insert(made.end(), folder.made_.begin(), folder.made_.end());
+    made_folders.insert(made_folders.end(), folder.made_.begin(), folder.made_.end());
     std::error_code failed;
     std::filesystem::create_directories(path, failed);
     if (failed)

@@ -80,7 +80,7 @@ int runPlan(const PlanOptions& options) {
     return kOk;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kPlanFooter =
     "Examples:\n"
     "  brittle plan card_house\n"
     "  brittle plan hull_pile_100 --measure\n"
@@ -94,7 +94,7 @@ constexpr const char* kFooter =
 void addPlan(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "plan", "Say what a step of a scene is made of: effects, passes, buffers, and what each effect costs.");
-    command->footer(kFooter);
+    command->footer(kPlanFooter);
     auto options = std::make_shared<PlanOptions>();
     command->add_option("SCENE", options->scene, kSceneHelp)->required();
     command->add_flag("--measure", options->measure, "make 60 steps, and say how long each pass takes (median)");

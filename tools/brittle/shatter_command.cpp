@@ -96,7 +96,7 @@ constexpr const char* kHalfOfModel = "half";
 constexpr uint32_t kUsualColliders = 26;
 const std::map<std::string, uint32_t> kColliders = {{"none", 0}, {"6", 6}, {"14", 14}, {"26", 26}, {"62", 62}};
 
-constexpr const char* kFooter =
+constexpr const char* kShatterFooter =
     "Examples:\n"
     "  brittle shatter vase.obj -o pieces.glb --sites 200 --seed 7 --verify\n"
     "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
@@ -233,7 +233,7 @@ void chooseColliders(const CLI::Option& collider, ShatterOptions& options) {
 
 void addShatter(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("shatter", "Break a closed model into closed fragments.");
-    command->footer(kFooter);
+    command->footer(kShatterFooter);
     auto options = std::make_shared<ShatterOptions>();
     command->add_option("MODEL", options->model, kModelHelp)->required();
     command

@@ -11,7 +11,7 @@ constexpr double kFamily = 0.06; // of all hues, those of what was one body
 constexpr float kGround = 0.34f, kShade = 0.45f;
 
 // A hue from 0 to 1 by the usual six ramps, as a linear color.
-std::array<float, 3> colorOf(double hue, double saturation, double value) {
+std::array<float, 3> colorOfHue(double hue, double saturation, double value) {
     std::array<float, 3> color;
     for (size_t k = 0; k < 3; ++k) {
         const double place = std::fmod(6 * hue + 5 - 2 * static_cast<double>(k), 6);
@@ -33,7 +33,7 @@ gpu::ObjectColor colorOf(const brittle::BodyLook& look, size_t number, double fa
     const double own_hue = 0.07 + kGoldenPart * static_cast<double>(look.origin.value_or(static_cast<uint32_t>(number)));
     const double hue = std::fmod(own_hue + (look.origin ? kFamily * (share - 0.5) + 1 : 0), 1);
     const double value = 0.72 + 0.16 * share;
-    return {packed(colorOf(hue, 0.37, value), 1), packed(colorOf(hue, 0.55, 0.72 * value), 0)};
+    return {packed(colorOfHue(hue, 0.37, value), 1), packed(colorOfHue(hue, 0.55, 0.72 * value), 0)};
 }
 
 gpu::ObjectColor dustColor(const brittle::BodyLook& look, size_t number) {

@@ -121,7 +121,7 @@ int runSimulate(const SimulateOptions& options) {
     return done ? kOk : fail(done.error());
 }
 
-constexpr const char* kFooter =
+constexpr const char* kSimulateFooter =
     "Examples:\n"
     "  brittle simulate card_house -o house.glb\n"
     "  brittle simulate hull_pile_100 -o pile.mp4 --fps 30\n"
@@ -136,7 +136,7 @@ constexpr const char* kFooter =
 
 void addSimulate(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("simulate", "Let a scene move: write an animation, a picture, a film, or numbers.");
-    command->footer(kFooter);
+    command->footer(kSimulateFooter);
     auto options = std::make_shared<SimulateOptions>();
     command->add_option("SCENE", options->scene, kSceneHelp)->required();
     auto* output = command->add_option("-o,--output", options->output, kMotionHelp)->check(someText);

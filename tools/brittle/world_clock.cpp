@@ -14,7 +14,7 @@ namespace {
 using brittle::operator+;
 using engine::Result;
 
-constexpr double kOnStep = 1e-6; // of a step: so near to one a moment is on it
+constexpr double kOnMoment = 1e-6; // of a step: so near to one a moment is on it
 
 // So much later, as they fly.
 std::vector<Speck> specksOf(const std::vector<gpu::DustParticle>& dust, double later) {
@@ -36,11 +36,11 @@ void append(const brittle::HeardEvents<Event>& heard, brittle::HeardEvents<Event
 
 Result<Moment> WorldClock::momentAt(double time) {
     const double steps = time / dt_;
-    const auto before = static_cast<uint64_t>(std::floor(steps + kOnStep));
+    const auto before = static_cast<uint64_t>(std::floor(steps + kOnMoment));
     const double share = steps - static_cast<double>(before);
     const auto first = keptOf(before);
     if (!first) return first.error();
-    if (share < kOnStep || before == last_step_) return Moment{(*first)->poses, specksOf((*first)->dust, 0)};
+    if (share < kOnMoment || before == last_step_) return Moment{(*first)->poses, specksOf((*first)->dust, 0)};
     const auto second = keptOf(before + 1);
     if (!second) return second.error();
     return Moment{brittle::between((*first)->poses, (*second)->poses, share), specksOf((*first)->dust, share * dt_)};

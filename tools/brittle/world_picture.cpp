@@ -31,7 +31,7 @@ constexpr double kGrazing = 0.05; // light that comes in flatter throws no shado
 
 Vector vectorOf(const Double3& v) { return {v[0], v[1], v[2]}; }
 
-gpu::ObjectMatrix packed(const Matrix& matrix) {
+gpu::ObjectMatrix packedMatrix(const Matrix& matrix) {
     gpu::ObjectMatrix result;
     const Eigen::Matrix4f numbers = matrix.matrix().cast<float>();
     std::memcpy(&result, numbers.data(), sizeof result); // both by columns
@@ -217,14 +217,14 @@ private:
     void place(const Poses& poses) {
         auto* matrices = matrices_.mappedAs<gpu::ObjectMatrix>();
         for (size_t cloud = 0; cloud < clouds_.size(); ++cloud)
-            matrices[cloudAt(cloud)] = packed(Matrix::Identity());
+            matrices[cloudAt(cloud)] = packedMatrix(Matrix::Identity());
         for (const size_t solid : solids_) {
             const auto matrix = matrixFor(solid, poses);
-            matrices[solid] = matrix ? packed(*matrix) : gpu::ObjectMatrix{};
+            matrices[solid] = matrix ? packedMatrix(*matrix) : gpu::ObjectMatrix{};
         }
         for (size_t plane = 0; plane < planes_.size(); ++plane) {
             const Matrix own = *matrixFor(planes_[plane], poses); // planes do not break
-            matrices[planes_[plane]] = packed(own * Eigen::Scaling(stretchOf(planes_[plane], own)));
+            matrices[planes_[plane]] = packedMatrix(own * Eigen::Scaling(stretchOf(planes_[plane], own)));
             placeShadows(plane, own, poses);
         }
     }
@@ -249,7 +249,7 @@ private:
         for (const size_t solid : solids_) {
             const auto matrix = matrixFor(solid, poses);
             const bool is_seen = is_lit && matrix && normal.dot(matrix->translation() - point) > 0;
-            matrices[shadowOf(solid, plane)] = is_seen ? packed(flat * *matrix) : gpu::ObjectMatrix{};
+            matrices[shadowOf(solid, plane)] = is_seen ? packedMatrix(flat * *matrix) : gpu::ObjectMatrix{};
         }
     }
 

@@ -20,7 +20,7 @@ uint64_t mixed(uint64_t word) {
     return word ^ (word >> 31);
 }
 
-uint32_t wordAt(Bytes bytes, size_t word) {
+uint32_t wordOf(Bytes bytes, size_t word) {
     uint32_t value = 0;
     std::memcpy(&value, bytes.data() + 4 * word, sizeof value);
     return value;
@@ -29,7 +29,7 @@ uint32_t wordAt(Bytes bytes, size_t word) {
 uint64_t hashOfWords(Bytes bytes) {
     uint64_t hash = bytes.size();
     for (size_t k = 0; k < bytes.size() / 4; ++k) {
-        hash = (hash ^ wordAt(bytes, k)) * 0x9e3779b97f4a7c15u;
+        hash = (hash ^ wordOf(bytes, k)) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
     }
     return mixed(hash);
@@ -37,19 +37,19 @@ uint64_t hashOfWords(Bytes bytes) {
 
 void addElement(Bytes before, Bytes after, size_t first_word, BufferHashes& hashes) {
     for (size_t k = 0; k < after.size() / 4; ++k)
-        if (const uint32_t word = wordAt(after, k); word != wordAt(before, k))
+        if (const uint32_t word = wordOf(after, k); word != wordOf(before, k))
             hashes.changes += mixed(mixed(first_word + k + 1) + word);
     hashes.unordered += hashOfWords(after);
 }
 
-bool areEqual(Bytes a, Bytes b) { return std::memcmp(a.data(), b.data(), a.size()) == 0; }
+bool areUnchanged(Bytes a, Bytes b) { return std::memcmp(a.data(), b.data(), a.size()) == 0; }
 
 BufferHashes hashesOf(Bytes before, Bytes after, uint32_t element_bytes) {
-    if (areEqual(before, after)) return {};
+    if (areUnchanged(before, after)) return {};
     BufferHashes hashes = {hashOfWords(after), 0, 0};
     for (size_t at = 0; at < after.size(); at += element_bytes) {
         const size_t size = std::min<size_t>(element_bytes, after.size() - at);
-        if (const Bytes was = before.subspan(at, size), is = after.subspan(at, size); !areEqual(was, is))
+        if (const Bytes was = before.subspan(at, size), is = after.subspan(at, size); !areUnchanged(was, is))
             addElement(was, is, at / 4, hashes);
     }
     return hashes;
@@ -63,7 +63,7 @@ public:
     Bytes of(Bytes links) {
         roots_.assign(links.begin(), links.end());
         for (size_t member = 0; member < roots_.size() / 4; ++member)
-            if (const uint32_t link = wordAt(roots_, member); link < member)
+            if (const uint32_t link = wordOf(roots_, member); link < member)
                 std::memcpy(roots_.data() + 4 * member, roots_.data() + size_t{4} * link, 4);
         return roots_;
     }

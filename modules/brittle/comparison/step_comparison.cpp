@@ -13,7 +13,7 @@ using engine::Error;
 using engine::Result;
 using Bytes = std::span<const std::byte>;
 
-constexpr uint64_t kBatchBytes = 48u << 20; // of buffers whose contents are read in one run
+constexpr uint64_t kRunBytes = 48u << 20; // of buffers whose contents are read in one run
 
 // Two runs of the same step on one device.
 using Runs = std::array<StepCapture, 2>;
@@ -97,7 +97,7 @@ private:
     Result<size_t> addBatch(size_t at) {
         std::set<BufferId> of_a, of_b;
         size_t end = at;
-        for (uint64_t bytes = 0; end < candidates_.size() && (end == at || bytes < kBatchBytes); ++end) {
+        for (uint64_t bytes = 0; end < candidates_.size() && (end == at || bytes < kRunBytes); ++end) {
             of_a.insert(candidates_[end].a);
             of_b.insert(candidates_[end].b);
             bytes += bufferOf(a_.hashes, candidates_[end].a).bytes;

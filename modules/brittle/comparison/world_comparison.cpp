@@ -50,7 +50,7 @@ private:
         auto saved = named(compared_.world.save());
         if (!saved) return saved.error();
         if (kept_[1].is_there()) kept_[0] = std::move(kept_[1]);
-        (kept_[0].is_there() ? kept_[1] : kept_[0]) = {made_, std::move(*saved)};
+        (kept_[0].is_there() ? kept_[1] : kept_[0]) = Kept{made_, std::move(*saved)};
         return {};
     }
     template <class T>
@@ -66,9 +66,9 @@ private:
     std::array<Kept, 2> kept_;
 };
 
-class Comparer {
+class WorldComparer {
 public:
-    Comparer(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options)
+    WorldComparer(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options)
         : a_(a, "device A"), b_(b, "device B"), options_(options) {}
 
     Result<WorldComparison> run() {
@@ -147,7 +147,7 @@ private:
 } // namespace
 
 Result<WorldComparison> compareWorlds(ComparedWorld a, ComparedWorld b, const ComparisonOptions& options) {
-    return Comparer(a, b, options).run();
+    return WorldComparer(a, b, options).run();
 }
 
 } // namespace brittle

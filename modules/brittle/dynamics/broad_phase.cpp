@@ -13,7 +13,7 @@ static_assert(kMostBoxes <= 1u << (2 * JOIN_BITS), "two dispatches make the tree
 constexpr uint32_t digitsOf(uint32_t bits) { return (bits + GROUP_SORT_BITS - 1) / GROUP_SORT_BITS; }
 
 constexpr Length kBoxes = Length{0, COUNT_TREE_BOXES};
-constexpr Length kPairs = Length{0, COUNT_TREE_PAIRS};
+constexpr Length kTreePairs = Length{0, COUNT_TREE_PAIRS};
 
 uint64_t blocksOf(uint64_t n) { return (n + SCAN_BLOCK - 1) / SCAN_BLOCK; }
 
@@ -70,9 +70,10 @@ void recordSearch(Recorder& r, const BroadPhase& p) {
 
 void recordPairOrder(Recorder& r, const BroadPhase& p) {
     const auto& s = p.scratch;
-    r.run("place_pairs", kPairs, engine::NoPush{}, {r.counts(), s.found_pairs, s.pair_offsets, s.loose_pairs, s.long_lists});
+    r.run("place_pairs", kTreePairs, engine::NoPush{},
+          {r.counts(), s.found_pairs, s.pair_offsets, s.loose_pairs, s.long_lists});
     r.runGroups("publish_pairs", 1, engine::NoPush{}, {r.counts(), r.args()});
-    r.run("order_pairs", kPairs, engine::NoPush{}, {r.counts(), s.pair_offsets, s.loose_pairs, p.pairs});
+    r.run("order_pairs", kTreePairs, engine::NoPush{}, {r.counts(), s.pair_offsets, s.loose_pairs, p.pairs});
     r.runGroups("order_long_lists", r.groupsOf(COUNT_LONG_LISTS), engine::NoPush{},
                 {r.counts(), s.pair_offsets, s.loose_pairs, s.long_lists, p.pairs});
 }

@@ -9,7 +9,7 @@
 namespace brittle {
 namespace {
 
-constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
+constexpr Length kBoxPairs = {0, COUNT_BOX_PAIRS};
 
 float sweptFor(const Step& s) { return static_cast<float>(SWEEP_AHEAD * s.settings.dt); }
 
@@ -36,11 +36,11 @@ void recordRecall(const Step& s) {
         uint32_t recycling;
     } push = {{g[0], g[1], g[2], sweptFor(s)}, static_cast<float>(contactMargin(s.settings)), s.settings.recycling ? 1u : 0u};
     s.record.run(
-        "recall_contacts", kPairs, push,
+        "recall_contacts", kBoxPairs, push,
         {r.counts(), s.now.pairs, s.last.count, s.last.pairs, s.last.contacts, s.b.bodies, s.b.shapes, b.recalled, b.fresh});
-    s.record.scan(kPairs, b.fresh, b.sums, b.fresh_slots,
+    s.record.scan(kBoxPairs, b.fresh, b.sums, b.fresh_slots,
                   {{COUNT_FRESH_PAIRS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.pairs, 0, 0, 0}});
-    s.record.run("list_fresh", kPairs, engine::NoPush{}, {r.counts(), s.now.pairs, b.fresh_slots, b.fresh_pairs});
+    s.record.run("list_fresh", kBoxPairs, engine::NoPush{}, {r.counts(), s.now.pairs, b.fresh_slots, b.fresh_pairs});
 }
 
 engine::Result<void> recordFreshPoints(const Step& s) {
@@ -52,7 +52,7 @@ engine::Result<void> recordFreshPoints(const Step& s) {
 
 void recordMemory(const Step& s) {
     const StepBuffers& b = s.b.step;
-    s.record.run("remember_contacts", kPairs, engine::NoPush{},
+    s.record.run("remember_contacts", kBoxPairs, engine::NoPush{},
                  {s.record.counts(), b.recalled, b.fresh_slots, b.manifolds, s.last.contacts, s.b.bodies, s.b.shapes,
                   s.now.contacts, b.touches});
     s.record.runGroups("keep_pair_count", s.record.groupsOf(COUNT_ONCE), engine::NoPush{}, {s.record.counts(), s.now.count});

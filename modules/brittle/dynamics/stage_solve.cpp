@@ -11,7 +11,7 @@ namespace brittle {
 namespace {
 
 constexpr double kNoLimit = 1e30; // Hz
-constexpr Length kContacts = {0, COUNT_CONTACTS}, kBodies = {0, COUNT_BODIES};
+constexpr Length kContacts = {0, COUNT_CONTACTS}, kBodies = {0, COUNT_BODIES}, kTouchedPairs = {0, COUNT_BOX_PAIRS};
 
 // A soft constraint (Catto, "Soft Constraints", 2011): how fast overlap is pushed out, and the shares of mass and impulse.
 gpu::vec4 softness(double hertz, double damping, double h, double last = 0) {
@@ -69,10 +69,9 @@ void recordSubstep(const Step& s, gpu::SolverPush push, uint32_t substep) {
 // Pairs that have contact points and are to be solved.
 void recordList(const Step& s) {
     const StepBuffers& b = s.b.step;
-    constexpr Length kPairs = {0, COUNT_BOX_PAIRS};
-    s.record.scan(kPairs, b.touches, b.sums, b.contact_offsets,
+    s.record.scan(kTouchedPairs, b.touches, b.sums, b.contact_offsets,
                   {{COUNT_CONTACTS, NO_INDEX, NO_INDEX, NO_INDEX}, {s.b.sizes.contacts, 0, 0, 0}});
-    s.record.compact(kPairs, b.contact_offsets, b.contact_pairs);
+    s.record.compact(kTouchedPairs, b.contact_offsets, b.contact_pairs);
 }
 
 void recordOrder(const Step& s) {

@@ -4,7 +4,7 @@
 namespace brittle {
 namespace {
 
-constexpr uint32_t kCount = 0, kFill = 1;
+constexpr uint32_t kCountRound = 0, kFillRound = 1;
 
 void recordOwners(const Event& e) {
     const auto& b = e.b;
@@ -25,12 +25,12 @@ void recordCrossings(const Event& e) {
     e.record.scan(edges, b.edge_flags, b.sums, b.edge_slot,
                   {{COUNT_MIXED_EDGES, NO_INDEX, NO_INDEX, NO_INDEX}, {c.edges, 0, 0, 0}});
     e.record.compact(edges, b.edge_slot, b.mixed_edges);
-    for (uint32_t pass : {kCount, kFill}) {
+    for (uint32_t pass : {kCountRound, kFillRound}) {
         e.record.run("cross_edges", Length::counted(COUNT_MIXED_EDGES), engine::NoPush{},
                      {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_edges, b.owners,
                       b.mixed_edges, b.crossing_counts, b.crossing_offsets, b.crossings},
                      pass);
-        if (pass == kCount)
+        if (pass == kCountRound)
             e.record.scan(Length::counted(COUNT_MIXED_EDGES), b.crossing_counts, b.sums, b.crossing_offsets,
                           {{COUNT_CROSSINGS, NO_INDEX, NO_INDEX, NO_INDEX}, {c.crossings, 0, 0, 0}});
     }

@@ -56,7 +56,7 @@ void recordPartings(const Event& e) {
                  b.positions, b.supports, b.sites, b.partings, b.parting_ranges});
 }
 
-void recordPieces(const Event& e) {
+void recordColliderPieces(const Event& e) {
     const auto& b = e.b;
     const Capacities& c = e.capacity;
     Recorder& r = e.record;
@@ -94,7 +94,7 @@ void recordColliders(const Event& e) {
     if (e.capacity.rare.partings) recordPartings(e);
     r.commands().endLabel();
     r.commands().beginLabel("collider");
-    recordPieces(e);
+    recordColliderPieces(e);
     r.commands().endLabel();
 }
 

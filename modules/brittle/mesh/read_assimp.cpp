@@ -24,7 +24,9 @@ Transform toTransform(const aiMatrix4x4& m) {
             {static_cast<double>(m[0][3]), static_cast<double>(m[1][3]), static_cast<double>(m[2][3])}};
 }
 
-Double3 toDouble(const aiVector3D& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+Double3 doublesOf(const aiVector3D& v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
 class SceneFlattener {
 public:
@@ -60,7 +62,7 @@ engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Tra
 const char* SceneFlattener::addMesh(const aiMesh& mesh, const Transform& transform) {
     first_vertex_ = static_cast<uint32_t>(mesh_.vertexCount());
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-        const Double3 position = transform.moved(toDouble(mesh.mVertices[v]));
+        const Double3 position = transform.moved(doublesOf(mesh.mVertices[v]));
         if (!isFinite(position)) return kNotFinite;
         mesh_.addVertex(position);
     }
@@ -81,7 +83,7 @@ const char* SceneFlattener::addMesh(const aiMesh& mesh, const Transform& transfo
 PolygonCorner SceneFlattener::corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const {
     PolygonCorner corner;
     corner.position = first_vertex_ + index;
-    if (mesh.mNormals) corner.normal = toFloat(normalized(transform.turnedNormal(toDouble(mesh.mNormals[index])), {0, 0, 0}));
+    if (mesh.mNormals) corner.normal = toFloat(normalized(transform.turnedNormal(doublesOf(mesh.mNormals[index])), {0, 0, 0}));
     if (mesh.mTextureCoords[0]) corner.uv = {mesh.mTextureCoords[0][index].x, 1 - mesh.mTextureCoords[0][index].y};
     return corner;
 }
