@@ -66,7 +66,7 @@ std::string listed(const std::vector<DeviceInfo>& devices) {
     if (devices.empty()) return "; this machine has no Vulkan device at all";
     std::string text = "; this machine has";
     for (const DeviceInfo& d : devices) {
-        text += (&d == &devices.front() ? " " : ", ") + std::to_string(d.index) + ": " + d.name;
+        text += (&d == &devices.front() ? " device " : ", device ") + std::to_string(d.index) + ", " + d.name;
         text += d.usable ? " (usable)" : " (not usable: " + d.why_not + ")";
     }
     return text;

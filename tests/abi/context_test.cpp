@@ -228,7 +228,10 @@ TEST(SmallAbi, ChecksMaterials) {
     EXPECT_NE(host.error().find("gl ass "), std::string::npos) << "a message is one line: " << host.error();
     EXPECT_NE(host.error().find("glass"), std::string::npos) << "the nearest name there is: " << host.error();
     EXPECT_EQ(made([](BrittleMaterialDef& d) { d.like = nullptr; }), BRITTLE_NULL_ARGUMENT);
+    EXPECT_EQ(made([](BrittleMaterialDef& d) { d.density = -1; }), BRITTLE_BAD_VALUE);
+    EXPECT_EQ(host.error().find("own"), std::string::npos) << "a name that the caller never gave: " << host.error();
     EXPECT_EQ(brittleFindMaterial(host, "oak", &material), BRITTLE_BAD_VALUE);
+    EXPECT_NE(host.error().find("name is \"oak\""), std::string::npos) << host.error();
     EXPECT_EQ(brittleFindMaterial(host, nullptr, &material), BRITTLE_NULL_ARGUMENT);
     MUST(host, brittleFindMaterial(host, "porcelain", &material));
     MUST(host, brittleDestroyMaterial(host, material));

@@ -10,7 +10,8 @@ struct Name {
 };
 
 // Keys of files whose fields are called otherwise, and what only files can say.
-constexpr Name kNames[] = {{"'place'", "'position'"},
+constexpr Name kNames[] = {{"material \"own\": ", ""}, // a name that the library gives
+                           {"'place'", "'position'"},
                            {"'turn'", "'rotation'"},
                            {", or an axis and degrees", ""},
                            {"nothing is in the scene; give it a [[body]]", "the world has no body; call brittleAddBody"},

@@ -1,6 +1,8 @@
 #include "modules/brittle/abi/boundary.h"
 #include "modules/brittle/abi/field_names.h"
+#include "modules/brittle/effects/material.h"
 #include "modules/brittle/scene/check_scene.h"
+#include "modules/brittle/scene/scene_keys.h"
 
 namespace {
 
@@ -9,10 +11,20 @@ using brittle::MaterialDescription;
 
 std::optional<double> unlessZero(double value) { return value == 0 ? std::nullopt : std::optional(value); }
 
+// Refuses a name that is no built-in material's. `argument`: what the caller gave it as.
+const char* builtinName(const char* name, const char* argument) {
+    needed(name, argument);
+    if (brittle::findMaterial(name) != nullptr) return name;
+    std::string names;
+    for (const std::string_view known : brittle::materialNames())
+        names += (names.empty() ? "" : ", ") + std::string(known);
+    throw Refusal(BRITTLE_BAD_VALUE, std::string(argument) + " is \"" + name + "\", which is no built-in material; there are " + names);
+}
+
 MaterialDescription descriptionOf(const BrittleMaterialDef& def) {
     MaterialDescription material;
     material.name = "own";
-    material.like = &needed(def.like, "like");
+    material.like = builtinName(def.like, "like");
     material.density = unlessZero(def.density);
     material.youngs_modulus = unlessZero(def.youngs_modulus);
     material.poisson_ratio = unlessZero(def.poisson_ratio);
@@ -48,7 +60,7 @@ BrittleResult brittleFindMaterial(BrittleContext* context, const char* name, Bri
     return bounded(context, [&](BrittleContext& c) {
         MaterialDescription found;
         found.name = "own";
-        found.like = &needed(name, "name");
+        found.like = builtinName(name, "name");
         BrittleMaterial& out = needed(material, "material");
         out.id = addMaterial(c, std::move(found));
     });
