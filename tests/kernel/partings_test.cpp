@@ -20,7 +20,7 @@ struct Islands {
         std::ranges::shuffle(fragments, random);
         for (uint32_t a = 0; a < cells.size(); ++a)
             for (uint32_t b = a + 1; b < cells.size() && cells[b] == cells[a]; ++b)
-                pairs.push_back({a, random() % 2});
+                pairs.push_back({a, static_cast<uint32_t>(random() % 2)});
     }
     std::vector<uint32_t> offsets() const { // pairs before each place
         std::vector<uint32_t> before;

@@ -107,6 +107,16 @@ TEST(SmallSceneLibrary, ScenesSurviveAFile) {
     }
 }
 
+// gcc 12 once left the rounding of two of three coordinates out.
+TEST(SmallSceneLibrary, PointsOfRandomHullsAreFloats) {
+    const auto scene = brittle::makeBuiltinScene("hull_pile_100");
+    ASSERT_TRUE(scene);
+    for (const brittle::BodyDescription& body : scene->bodies)
+        for (const brittle::Double3& point : body.shape.points)
+            for (const double x : point)
+                EXPECT_EQ(double{static_cast<float>(x)}, x) << body.name;
+}
+
 TEST(SmallSceneLibrary, FamiliesTakeANumber) {
     EXPECT_EQ(made("hull_pile_37").bodies.size(), 37u);
     EXPECT_EQ(made("stack_3").bodies.size(), 3u);
