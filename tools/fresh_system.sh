@@ -65,7 +65,7 @@ in_system() {
 # Complains about files of the demo that are missing, empty or of another kind.
 check_results() {
   local file kind
-  for file in demo.png demo.glb window_pane.glb; do
+  for file in demo.png demo.glb window_pane.png window_pane.glb; do
     [ -s "$root/brittle/out/$file" ] || fail "Debian $suite: out/$file is missing or empty"
     kind=$(head -c 4 "$root/brittle/out/$file" | tr -d '\211\0')
     case $file:$kind in
