@@ -33,7 +33,7 @@ TEST_F(HardCli, ListsMoreThanAHundredCasesWithoutRunningAny) {
     const Outcome run = hard({"--list"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_GT(linesOf(run.out), 100u);
-    for (const char* name : {"sites: lattice, cubic, 16", "ball broken eight times over", "mesh with a hole", "all pools full",
+    for (const char* name : {"sites: lattice, cubic, 16", "ball broken eight times over", "mesh with a hole", "full pools of faces and triangles",
                              "hard_20_pile_1000", "hard_05_stack_40 (long)"})
         EXPECT_NE(run.out.find(name), std::string::npos) << name;
 }

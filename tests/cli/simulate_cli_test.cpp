@@ -204,7 +204,7 @@ TEST_F(SimulateCli, BreaksBodiesInThePatternThatTheSceneSays) {
 
 TEST_F(SimulateCli, SaysWhatBrokeByWhatAndWhatStayedWhole) {
     std::ofstream(path("told.toml")) << "name = \"told\"\neffects = [\"gravity\", \"impact_fracture\", \"events\"]\n"
-                                        "[budgets]\nfragments = 100\nmost_fragments = 60\n"
+                                        "[budgets]\nfragment_triangles = 3000\nmost_fragments = 60\n"
                                         "[[body]]\nname = \"first\"\nshape = \"ball\"\nradius = 0.1\nplace = [0, 0.3, 0]\n"
                                         "velocity = [0, -9, 0]\nmaterial = \"glass\"\n"
                                         "[[body]]\nname = \"second\"\nshape = \"ball\"\nradius = 0.1\nplace = [2, 0.3, 0]\n"
@@ -225,7 +225,7 @@ TEST_F(SimulateCli, SaysWhatBrokeByWhatAndWhatStayedWhole) {
     EXPECT_EQ(breaks[1]["body"], "second");
     EXPECT_EQ(breaks[1]["fragments"], 0u);
     EXPECT_EQ(breaks[1]["whole"], "no room in the world");
-    EXPECT_GT(breaks[1]["lacked"]["bodies"], 0u);
+    EXPECT_GT(breaks[1]["lacked"]["triangles"], 0u);
     const Outcome told = simulate({path("told.toml"), "--seconds", "0.1", "-o", path("a.glb")});
     ASSERT_EQ(told.exit_code, 0) << told.err;
     EXPECT_NE(told.out.find("first by ground at 9"), std::string::npos) << told.out;

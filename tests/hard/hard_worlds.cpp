@@ -15,9 +15,9 @@ constexpr double kBall = 0.1;              // m, radius
 constexpr uint32_t kFall = 60, kRest = 60; // steps
 
 constexpr PoolCase kPoolCases[] = {
-    {"full pools of bodies and pieces",
+    {"room for one fragment",
      [](WorldBudget& b) {
-         b.breaking.fragments = 20;
+         b.breaking.fragments = 1;
          b.breaking.faces = 40000;
          b.breaking.triangles = 90000;
      },
@@ -25,7 +25,13 @@ constexpr PoolCase kPoolCases[] = {
      {true, true, false, false}},
     {"full pool of faces", [](WorldBudget& b) { b.breaking.faces = 100; }, WHOLE_NO_ROOM, {false, false, true, false}},
     {"full pool of triangles", [](WorldBudget& b) { b.breaking.triangles = 300; }, WHOLE_NO_ROOM, {false, false, false, true}},
-    {"all pools full", [](WorldBudget& b) { b.breaking.fragments = 3; }, WHOLE_NO_ROOM, {true, true, true, true}},
+    {"full pools of faces and triangles",
+     [](WorldBudget& b) {
+         b.breaking.faces = 4;
+         b.breaking.triangles = 300;
+     },
+     WHOLE_NO_ROOM,
+     {false, false, true, true}},
     {"no room for the triangles of a step",
      [](WorldBudget& b) { b.breaking.step_triangles = 8; },
      WHOLE_TOO_LARGE,

@@ -10,7 +10,7 @@ struct Name {
 };
 
 // Keys of files whose fields are called otherwise, and what only files can say.
-constexpr Name kNames[] = {{"material \"own\": ", ""}, // a name that the library gives
+constexpr Name kNames[] = {{"material 'own': ", ""}, // a name that the library gives
                            {"'place'", "'position'"},
                            {"'turn'", "'rotation'"},
                            {", or an axis and degrees", ""},

@@ -18,7 +18,7 @@ const char* builtinName(const char* name, const char* argument) {
     std::string names;
     for (const std::string_view known : brittle::materialNames())
         names += (names.empty() ? "" : ", ") + std::string(known);
-    throw Refusal(BRITTLE_BAD_VALUE, std::string(argument) + " is \"" + name + "\", which is no built-in material; there are " + names);
+    throw Refusal(BRITTLE_BAD_VALUE, std::string(argument) + " is \"" + name + "\"; it has to be one of " + names);
 }
 
 MaterialDescription descriptionOf(const BrittleMaterialDef& def) {
