@@ -55,7 +55,6 @@ layout(push_constant) uniform Push {
 #include "lib/publish.glsl"
 #include "lib/takes_part.glsl"
 
-const float kForEver = 3e38; // s
 const uint kAnyNumber = 0xffffffu; // of fragments
 
 shared uint flags[GROUP_SIZE];
@@ -253,12 +252,10 @@ void countFragments(uint k, uint body) {
 #include "lib/expected_pairs.glsl"
 #include "lib/fragment_share.glsl"
 
-uvec2 lackedBy(uint asked, uint room) { return uvec2(asked - min(asked, room)); }
-
 uvec2 lackedBy(uvec2 asked, uvec2 room) { return asked - min(asked, room); }
 
 uvec2 lackOf(uint k, uint why, uvec2 room) {
-    if (why == WHOLE_NO_ROOM) return lackedBy(min(sites_of[k], most_fragments), limit_of[k]);
+    if (why == WHOLE_NO_ROOM) return lackedBy(uvec2(min(sites_of[k], most_fragments)), uvec2(limit_of[k]));
     if (why == WHOLE_NO_PAIRS) return lackedBy(pairs_of[k], room);
     return lackedBy(uvec2(trianglesOf(listed[k]), sites_of[k]), uvec2(most_triangles, most_sites));
 }

@@ -21,11 +21,7 @@ layout(push_constant) uniform Push {
     float below;    // m3, of those whose time runs out; 0: it runs out for none
     float after, fade; // s
 };
-
-bool isFragment(uint b) {
-    BreakableBody body = breakable[b];
-    return body.surface.w != NO_INDEX && body.balance.w > 0.0 && (bodies[b].sector.w & BODY_ABSENT) == 0;
-}
+#include "lib/origin.glsl"
 
 // By the way that it has gone, whatever it was held back from. Turning counts for nothing: splinters may spin where they lie.
 float restOf(BodyState body, DebrisClock clock, bool goes) {
@@ -45,7 +41,7 @@ void main() {
     }
     bool goes = breakable[b].form.x < below;
     if (goes) steps[STEPS_ASLEEP] = 0u; // all say the same
-    int made = int(breakable[b].balance.w);
+    int made = int(bornIn(b));
     BodyState body = bodies[b];
     float rest = clocks[b].sector.w == made ? restOf(body, clocks[b], goes) : 0.0;
     bool is_over = goes && rest > 0.0 && rest >= after + fade;

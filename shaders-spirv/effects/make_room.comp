@@ -25,6 +25,8 @@ layout(push_constant) uniform Push {
     uint most_whole;    // such bodies when the world began
 };
 
+#include "lib/origin.glsl"
+
 const uint kVolumes = 64u, kAges = 16u, kClasses = kVolumes * kAges;
 const int kSmallestExponent = -48; // cubes of 15 um
 
@@ -37,25 +39,21 @@ shared uint of_last;    // how many of it
 void countKept(uint lane, uint slots) {
     if (lane == 0u) kept = 0u;
     barrier();
-    for (uint b = lane; b < slots; b += GROUP_SIZE) {
-        bool whole = breakable[b].surface.w != NO_INDEX && breakable[b].balance.w == 0.0;
-        if (whole) atomicAdd(kept, kept_for_each);
-    }
+    for (uint b = lane; b < slots; b += GROUP_SIZE)
+        if (isWhole(b)) atomicAdd(kept, kept_for_each);
     barrier();
 }
 
 bool mayLeave(uint b) {
-    BreakableBody body = breakable[b];
-    bool is_fragment = body.surface.w != NO_INDEX && body.balance.w > 0.0;
-    return is_fragment && clocks[b].sector.w == int(body.balance.w) && clocks[b].offset.w >= rest &&
-           clocks[b].offset.w < float(DEBRIS_OVER);
+    float rested = clocks[b].offset.w;
+    return isFragment(b) && clocks[b].sector.w == int(bornIn(b)) && rested >= rest && rested < float(DEBRIS_OVER);
 }
 
 uint classOf(uint b) {
     int exponent;
     frexp(breakable[b].form.x, exponent);
     uint volume = uint(clamp(exponent - kSmallestExponent, 0, int(kVolumes) - 1));
-    uint age = max(steps[STEPS_MADE] - uint(breakable[b].balance.w), 1u);
+    uint age = max(steps[STEPS_MADE] - bornIn(b), 1u);
     return volume * kAges + (kAges - 1u - min(uint(findMSB(age)), kAges - 1u));
 }
 

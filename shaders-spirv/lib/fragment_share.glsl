@@ -6,11 +6,6 @@
 shared uint whole_bodies;            // of the scene that can break and have not
 shared uint limit_of[MOST_BREAKING]; // fragments, of those listed; at most most_fragments
 
-bool isWhole(uint body) {
-    BreakableBody b = breakable[body];
-    return b.surface.w != NO_INDEX && b.balance.w == 0.0 && b.form.w < kForEver && (bodies[body].sector.w & BODY_ABSENT) == 0;
-}
-
 void countWhole(uint lane) {
     if (lane == 0u) whole_bodies = 0u;
     barrier();

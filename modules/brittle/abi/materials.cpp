@@ -15,10 +15,9 @@ std::optional<double> unlessZero(double value) { return value == 0 ? std::nullop
 const char* builtinName(const char* name, const char* argument) {
     needed(name, argument);
     if (brittle::findMaterial(name) != nullptr) return name;
-    std::string names;
-    for (const std::string_view known : brittle::materialNames())
-        names += (names.empty() ? "" : ", ") + std::string(known);
-    throw Refusal(BRITTLE_BAD_VALUE, std::string(argument) + " is \"" + name + "\"; it has to be one of " + names);
+    const brittle::SceneKey& like = *brittle::findKey(brittle::sectionOf(brittle::SectionId::Material), "like");
+    throw Refusal(BRITTLE_BAD_VALUE,
+                  std::string(argument) + " is \"" + name + "\"; it has to be " + brittle::describeAllowed(like));
 }
 
 MaterialDescription descriptionOf(const BrittleMaterialDef& def) {
