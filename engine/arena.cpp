@@ -10,6 +10,9 @@ namespace {
 
 constexpr VkDeviceSize kMinTake = 16;
 
+// Kernels clear four words at a time.
+VkDeviceSize rounded(VkDeviceSize bytes) { return (std::max(bytes, kMinTake) + 15) / 16 * 16; }
+
 } // namespace
 
 Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity, std::string_view name,
@@ -23,11 +26,16 @@ Result<ScratchArena> ScratchArena::create(Device& device, VkDeviceSize capacity,
 }
 
 BufferView ScratchArena::take(VkDeviceSize bytes) {
-    const VkDeviceSize size = (std::max(bytes, kMinTake) + 15) / 16 * 16; // kernels clear four words at a time
+    const BufferView taken = takeInParts(bytes);
+    largest_ = std::max(largest_, rounded(bytes));
+    return taken;
+}
+
+BufferView ScratchArena::takeInParts(VkDeviceSize bytes) {
+    const VkDeviceSize size = rounded(bytes);
     const VkDeviceSize begin = used_;
     used_ = (begin + size + kViewAlignment - 1) / kViewAlignment * kViewAlignment;
     peak_ = std::max(peak_, begin + size);
-    largest_ = std::max(largest_, size);
     if (begin + size > capacity()) {
         overflowed_ = true;
         return {};

@@ -21,6 +21,8 @@ public:
     // empty and status() fails until the next reset(); taking goes on, so that the message names all that would have been
     // needed.
     BufferView take(VkDeviceSize bytes);
+    // The same for a range of which kernels bind parts only: largest() does not count it.
+    BufferView takeInParts(VkDeviceSize bytes);
     Mark mark() const { return used_; }
     void release(Mark mark);
     void reset();

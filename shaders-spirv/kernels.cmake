@@ -164,12 +164,13 @@ kernel(narrow_phase/find_fixed_axes.comp)
 kernel(narrow_phase/build_manifolds.comp)
 
 # What breaks, made ready.
-foreach(name IN ITEMS open_event check_breaking find_blows advance_turning judge_turning drop_blows rank_blows choose_blows hold_blows leave_unmet admit_breaking key_fragments ask_rooms measure_cracks
+foreach(name IN ITEMS open_event check_breaking find_blows advance_turning judge_turning drop_blows rank_blows choose_blows hold_blows leave_unmet measure_reach admit_breaking key_fragments ask_rooms measure_cracks
         give_rooms pay_cracks tell_breaks weigh_fragments adopt_hulls adopt_surfaces retire_bodies gather_corners flag_firsts flag_solid place_breaking
         write_vertices write_triangles write_edges)
     kernel(breaking/${name}.comp)
 endforeach()
 kernel(breaking/admit_breaking.comp NAME admit_strikes DEFINES STRIKES=1)
+kernel(breaking/measure_reach.comp NAME measure_reach_strikes DEFINES STRIKES=1)
 foreach(name IN ITEMS measure_strikes claim_strikes count_strikes judge_strikes wake_struck raise_strikes choose_strikes)
     kernel(breaking/${name}.comp)
 endforeach()

@@ -1,6 +1,6 @@
 // Surfaces of fragments that become bodies, a workgroup a fragment: from the event's pools to the world's, back in meters, which
 // rounds nothing, and their bounds. A lane takes every GROUP_SIZE-th corner, so that a surface may have four million of them
-// before a lane of Mesa's software device runs out of turns.
+// before a lane of Mesa's software device runs out of turns. Runs once for each part of the world's list.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -15,8 +15,9 @@ READS(2, ivec4, sites);
 READS(3, BreakingRecord, breaking);
 READS(4, uvec4, rooms);
 READS(5, SceneVertex, event_vertices);
-WRITES(6, SceneVertex, vertices);
+WRITES(6, SceneVertex, vertices); // of one part of the list of surfaces
 UPDATES(7, BreakableBody, breakable);
+layout(push_constant) uniform Push { uint first_vertex, end_vertex; }; // of the part
 #include "lib/whose_fragment.glsl"
 
 shared vec3 lows[GROUP_SIZE];
@@ -47,14 +48,15 @@ void main() {
     uint f = flatGroup(), lane = gl_LocalInvocationID.x;
     if (f >= counts[COUNT_FRAGMENTS] || counts[STATUS_FAILED] != 0u) return;
     uvec4 room = rooms[f], range = fragments[f].range;
-    if (room[ROOM_BODY] >= ROOM_OF_DUST) return;
+    uint first = 3u * room[ROOM_TRIANGLES];
+    if (room[ROOM_BODY] >= ROOM_OF_DUST || first < first_vertex || first >= end_vertex) return;
     float unit = inversePower(breaking[objectOfFragment(f)].center.w);
     vec3 low = vec3(1e38), high = vec3(-1e38);
     for (uint k = lane; k < 3u * (range.z + range.w); k += GROUP_SIZE) {
         SceneVertex v = event_vertices[3u * range.y + k];
         vec3 p = unit * vec3(v.position[0], v.position[1], v.position[2]);
         for (uint c = 0u; c < 3u; c++) v.position[c] = p[c];
-        vertices[3u * room[ROOM_TRIANGLES] + k] = v;
+        vertices[first - first_vertex + k] = v;
         low = min(low, p);
         high = max(high, p);
     }

@@ -1,5 +1,5 @@
 // Corners of all that breaks: where each lies, from its object's center in units of half a grid's edge, and its object. The unit is
-// a power of two, so that nothing is rounded but the way to the center.
+// a power of two, so that nothing is rounded but the way to the center. Runs once for each part of the list of surfaces.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -9,8 +9,9 @@
 FLAT_KERNEL;
 READS(0, uint, counts);
 READS(1, BreakingRecord, breaking);
-READS(2, SceneVertex, vertices);
-WRITES(3, uint, corners); // four words: place as bits, object
+READS(2, SceneVertex, vertices); // of one part of the list of surfaces
+WRITES(3, uint, corners);        // four words: place as bits, object
+layout(push_constant) uniform Push { uint first_vertex, end_vertex; }; // of the part
 #include "lib/breaking_corner.glsl"
 
 void main() {
@@ -19,8 +20,9 @@ void main() {
     uint object = objectOf(c);
     BreakingRecord r = breaking[object];
     uint v = vertexOf(r, c);
+    if (v < first_vertex || v >= end_vertex) return;
     for (uint k = 0u; k < 3u; k++) {
-        precise float way = (vertices[v].position[k] - r.center[k]) * r.center.w;
+        precise float way = (vertices[v - first_vertex].position[k] - r.center[k]) * r.center.w;
         corners[4u * c + k] = floatBitsToUint(way == 0.0 ? 0.0 : way);
     }
     corners[4u * c + 3u] = object;

@@ -77,6 +77,7 @@ struct TurningBlow {
     vec4 time;
 };
 #define MOST_BREAKING 256 /* bodies in a step, as many as there are tiles */
+#define REACH_STEPS 1048576.0 /* of the furthest place from a blow: what its distance to the rim is counted in */
 // The solver brakes bodies that would meet in the substep after the last: a blow is what happens by then.
 #define AHEAD_OF_STEP 1.05 /* of a substep */
 #define BREAKS_A 1

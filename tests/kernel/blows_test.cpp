@@ -107,7 +107,7 @@ Outcome judge(const Line& line) {
     std::vector<gpu::PoolHeader> headers(POOLS);
     headers[POOL_BODIES].capacity = line.room_for_fragments;
     const engine::Buffer pools = bufferOf(headers);
-    const engine::Buffer vertices = blankBuffer<float>(8); // of what breaks in spokes and rings, which nothing does
+    const engine::Buffer reach_sums = blankBuffer<uint32_t>(MOST_BREAKING); // of what breaks in rays, which nothing does
     onDevice([&](engine::Commands& commands) {
         commands.dispatch(
             kernel("find_blows"), pairs, find,
@@ -122,7 +122,7 @@ Outcome judge(const Line& line) {
                           {counts.words, memory, states, blows, chosen, touches, shares});
         commands.dispatchGroups(kernel("admit_breaking"), 1, admit,
                                 {counts.words, memory, states, shapes, blows, chosen, cards, steps, breakable, breaking, broken,
-                                 event.words, event.args, vertices, pools});
+                                 event.words, event.args, reach_sums, pools});
     });
     return {valuesOf<gpu::BlowRecord>(blows, pairs),
             valuesOf<uint32_t>(touches, pairs),

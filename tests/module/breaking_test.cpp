@@ -111,7 +111,7 @@ private:
             commands_.copy(engine::BufferView(*asked_).sub(4 * k, 4), b.counts.sub(4 * kAsked[k], 4));
         for (const uint32_t count : kAsked)
             recorder.publish(count, NO_INDEX);
-        brittle::recordBreaking(recorder, event_, *records_, *vertices_, scene_->views(), colliders_->views());
+        brittle::recordBreaking(recorder, event_, *records_, engine::BufferView(*vertices_), scene_->views(), colliders_->views());
         ASSERT_TRUE(recorder.status()) << recorder.status().error().message;
     }
 

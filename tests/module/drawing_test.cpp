@@ -3,6 +3,7 @@
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/dynamics/scene_settings.h"
+#include "tests/engine/read_view.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/breaking_scenes.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 using namespace breaking_scenes;
 using Eigen::Vector3d, Eigen::Quaterniond;
-using engine_test::device;
+using engine_test::device, engine_test::valuesOf;
 
 const brittle::Double3 kOrigin = {1000, 20, -3}; // m, that matrices count from
 const Vector3d kSize(0.3, 0.2, 0.1);
@@ -43,19 +44,6 @@ std::unique_ptr<brittle::World> drawnWorld() {
     auto world = brittle::World::create(device(), *contents, *brittle::settingsOf(scene), {});
     EXPECT_TRUE(world) << world.error().message;
     return std::move(*world);
-}
-
-template <class T>
-std::vector<T> valuesOf(const engine::BufferView& view) {
-    const size_t words = view.size / 4;
-    engine::Buffer target = engine_test::readback(device(), words);
-    engine::Commands commands(device());
-    EXPECT_TRUE(commands.begin());
-    commands.copy(view, target);
-    engine_test::finish(commands);
-    std::vector<T> values(view.size / sizeof(T));
-    std::memcpy(static_cast<void*>(values.data()), target.mappedAs<uint32_t>(), values.size() * sizeof(T));
-    return values;
 }
 
 struct Drawn {

@@ -146,7 +146,8 @@ TEST(RadialPattern, HasSpokesToTheRimAndRingsBetween) {
     }
 }
 
-// Where the finest rings cost less than what is paid for, more spokes do; where there is no room for so many, the event says so.
+// Where the finest rings cost less than what is paid for, more spokes do; where there is no room for so many, the event says
+// so.
 TEST(RadialPattern, TakesMoreSpokesOnceRingsAreFineEnough) {
     for (const double speed : {10.0, 14.0, 18.0})
         for (const uint32_t most : {40u, 1000u}) {
@@ -168,6 +169,18 @@ TEST(RadialPattern, TakesMoreSpokesOnceRingsAreFineEnough) {
             else
                 EXPECT_NEAR(share, 1, 0.15) << speed << ": cracks cost what is theirs";
         }
+}
+
+TEST(RadialPattern, OfAPaneStruckByHandCostsWhatTheBlowPaysFor) {
+    SceneDescription scene = paneAndBall(brittle::BreakPattern::Radial, false);
+    scene.bodies.resize(1);
+    for (const double joules : {8.0, 20.0}) {
+        const auto world = worldOf(scene);
+        ASSERT_TRUE(world->strike({{0.1, -0.02, 0.05}, 0.02, joules}));
+        const auto events = stepUntilItBreaks(*world, 2);
+        ASSERT_EQ(events.size(), 1u);
+        EXPECT_NEAR(events[0].energies.z / events[0].blow.z, 1, 0.15) << joules;
+    }
 }
 
 std::set<uint64_t> hashesOfRuns(const SceneDescription& scene) {

@@ -21,9 +21,12 @@ void recordAdoption(Recorder& record, const BrokenParts& parts, const BreakableW
                       parts.colliders.records, parts.colliders.faces, parts.colliders.vertices, parts.colliders.corners,
                       world.hulls.records, world.hulls.vertices, world.hulls.faces, world.hulls.corners, world.hulls.edges,
                       world.pieces, world.shapes});
-    record.runGroups("adopt_surfaces", groups, engine::NoPush{},
-                     {record.counts(), parts.fragments, parts.sites, parts.breaking, parts.rooms, parts.vertices,
-                      world.vertices, world.breakable});
+    for (uint32_t k = 0; k < world.surfaces.parts(); ++k) {
+        const SurfacePart part = world.surfaces.part(k);
+        record.runGroups("adopt_surfaces", groups, part.range,
+                         {record.counts(), parts.fragments, parts.sites, parts.breaking, parts.rooms, parts.vertices,
+                          part.vertices, world.breakable});
+    }
     record.commands().endLabel();
 }
 

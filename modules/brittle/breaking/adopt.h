@@ -2,6 +2,7 @@
 // the place and in the motion that it had as a part; and the bodies that they were parts of leave it. All on the device.
 #pragma once
 
+#include "modules/brittle/breaking/surface_list.h"
 #include "modules/brittle/dynamics/narrow_phase.h"
 #include "modules/brittle/fracture/collider_pools.h"
 #include "modules/brittle/fracture/recorder.h"
@@ -24,10 +25,10 @@ struct BreakableWorld {
     engine::BufferView bodies, shapes, pieces;
     HullPools hulls;              // vertices, edges and corners as many times a hull's first face as shared/breaking.h says
     engine::BufferView breakable; // BreakableBody, by slot of a body
-    engine::BufferView vertices;  // SceneVertex
-    engine::BufferView cards;     // MaterialCard
-    engine::BufferView steps;     // STEPS_*
-    engine::BufferView births;    // Birth, by slot of a body
+    SurfaceList surfaces;
+    engine::BufferView cards;  // MaterialCard
+    engine::BufferView steps;  // STEPS_*
+    engine::BufferView births; // Birth, by slot of a body
 };
 
 // How strong fragments are is drawn by this seed; for so long no blow breaks them.

@@ -85,12 +85,12 @@ void layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event) {
     shareMesh(event.b, event.gather);
 }
 
-void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, engine::BufferView vertices,
+void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, const SurfaceList& surfaces,
                     const ScenePools& scene, const ColliderPools& colliders) {
     const EventBuffers& b = event.b;
     record.runGroups("open_event", 1, event.grid.binCount() / event.grid.tiles, {record.counts(), record.args()});
     record.gate();
-    recordGather(record, event.room.mesh, event.gather, breaking, vertices);
+    recordGather(record, event.room.mesh, event.gather, breaking, surfaces);
     recordBreakingSites(record, event.gather, breaking, b.raw_sites, b.placed);
     recordFracture({.grid = event.grid,
                     .capacity = event.capacity,

@@ -39,12 +39,12 @@ void layOutBreaking(engine::ScratchArena& arena, BreakingEvent& event);
 
 // Wants COUNT_BREAKING, COUNT_SOUP_TRIANGLES, COUNT_SOUP_CORNERS and COUNT_ASKED_SITES published, no more of each than there is
 // room for, after everything else in the event's counts and arguments, which `record` is over, was cleared. `breaking`:
-// BreakingRecords in order; `vertices`: SceneVertex.
+// BreakingRecords in order.
 //
 // Once it has run, COUNT_FRAGMENTS and COUNT_EMITTED tell what stands in the pools: each object's fragments about the center in
 // its record, and in the record's units. Nothing does where STATUS_FAILED is set; STATUS_NEEDED then has what a pool that was
 // too small would have had to hold.
-void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, engine::BufferView vertices,
+void recordBreaking(Recorder& record, const BreakingEvent& event, engine::BufferView breaking, const SurfaceList& surfaces,
                     const ScenePools& scene, const ColliderPools& colliders = {});
 
 } // namespace brittle

@@ -100,15 +100,16 @@ public:
                    kPause,
                    room_.kept_for_each,
                    room_.kept_for_whole};
+        if (room_.radial) recordReach(s, strikes);
         if (strikes != nullptr)
             s.record.runGroups("admit_strikes", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
-                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,
+                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, p_.reach_sums,
                                 pools_.headers, strikes->records()});
         else
             s.record.runGroups("admit_breaking", 1, admit,
                                {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.cards, s.b.steps,
-                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, l_.surface_vertices,
+                                l_.breakable, p_.breaking, p_.broken, event_.b.counts, event_.b.args, p_.reach_sums,
                                 pools_.headers});
         s.record.commands().endLabel();
     }
@@ -116,7 +117,7 @@ public:
     Result<void> recordEvent(const Step& s) override {
         if (dust_) dust_->recordFlight(s);
         Recorder record(s.record.commands(), s.kernels, event_.b.counts, event_.b.args);
-        recordBreaking(record, event_, p_.breaking, l_.surface_vertices, scene_->views(), colliders_->views());
+        recordBreaking(record, event_, p_.breaking, surfaces(), scene_->views(), colliders_->views());
         record.commands().beginLabel("rooms");
         recordRequests(record, s);
         recordTake(record, room_.pools, pools_, {COUNT_BREAKING, p_.sizes, p_.owner_start, p_.begins, p_.lacking},
@@ -185,6 +186,28 @@ private:
 
     GatherRoom gatherRoomFor() const { return roomFor(room_.step_bodies, room_.step_triangles); }
 
+    SurfaceList surfaces() const {
+        return {l_.surface_vertices, room_.surfaces.parts() > 1 ? room_.surfaces.part_triangles : 0};
+    }
+    uint32_t largestPart() const { return std::min(room_.surfaces.capacity, room_.surfaces.part_triangles); }
+
+    // How far it is to the rim of what breaks in rays.
+    void recordReach(const Step& s, const Strikes* strikes) const {
+        for (uint32_t k = 0; k < surfaces().parts(); ++k) {
+            const SurfacePart part = surfaces().part(k);
+            const uint32_t push[] = {part.range.first, part.range.end, room_.step_triangles};
+            const auto& world = s.record.counts();
+            if (strikes != nullptr)
+                s.record.runGroups("measure_reach_strikes", 1, push,
+                                   {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.breakable,
+                                    part.vertices, p_.reach_sums, strikes->records()});
+            else
+                s.record.runGroups("measure_reach", 1, push,
+                                   {world, s.now.contacts, s.b.bodies, s.b.shapes, p_.blows, p_.chosen, l_.breakable,
+                                    part.vertices, p_.reach_sums});
+        }
+    }
+
     // Who is asked for what, object by object.
     void recordRequests(Recorder& record, const Step& s) {
         const float least = leastVolumeOf(s.settings);
@@ -216,8 +239,7 @@ private:
     }
 
     BreakableWorld worldOf(const Step& s) const {
-        return {s.b.bodies,          s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable,
-                l_.surface_vertices, l_.cards,   s.b.steps,  s.b.births};
+        return {s.b.bodies, s.b.shapes, s.b.pieces, s.b.hulls(), l_.breakable, surfaces(), l_.cards, s.b.steps, s.b.births};
     }
 
     void recordSwap(Recorder& record, const Step& s) {
@@ -246,7 +268,7 @@ private:
         if (!scene) return scene.error();
         scene_ = std::move(*scene);
         if (auto fits = canBind(scene_->views().vertices.size, contents); !fits) return fits;
-        if (auto fits = canBind(contents.surface_vertices.size() * sizeof(FragmentVertex), contents); !fits) return fits;
+        if (auto fits = canBind(uint64_t{largestPart()} * 3 * sizeof(FragmentVertex), contents); !fits) return fits;
         auto colliders = ColliderBuffers::create(device_, event_.capacity);
         if (!colliders) return colliders.error();
         colliders_.emplace(std::move(*colliders));

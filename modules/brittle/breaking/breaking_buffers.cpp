@@ -31,6 +31,7 @@ constexpr ViewName<P> kPassing[] = {{&P::blows, "blows"},
                                     {&P::chosen, "chosen blows"},
                                     {&P::breaking, "breaking"},
                                     {&P::broken, "broken"},
+                                    {&P::reach_sums, "reach sums"},
                                     {&P::cracks, "cracks"},
                                     {&P::size_shares, "size shares"},
                                     {&P::ledger, "crack ledger"},
@@ -90,7 +91,7 @@ LastingBuffers layOutLasting(ScratchArena& arena, const WorldContents& c, Effect
     LastingBuffers l;
     l.breakable = arena.take(c.breakable.size() * sizeof(gpu::BreakableBody));
     l.cards = arena.take(c.cards.size() * sizeof(gpu::MaterialCard));
-    l.surface_vertices = arena.take(c.surface_vertices.size() * sizeof(FragmentVertex));
+    l.surface_vertices = arena.takeInParts(c.surface_vertices.size() * sizeof(FragmentVertex));
     if (!effects.has(Effect::Events)) return l;
     l.told = arena.take(4);
     l.ring = arena.take(BREAK_EVENTS * sizeof(gpu::BreakEvent));
@@ -106,6 +107,7 @@ PassingBuffers layOutPassing(ScratchArena& arena, const BreakingSizes& n) {
     p.chosen = words(n.bodies);
     p.breaking = arena.take(MOST_BREAKING * sizeof(gpu::BreakingRecord));
     p.broken = arena.take(MOST_BREAKING * sizeof(gpu::BrokenBody));
+    p.reach_sums = words(MOST_BREAKING);
     p.cracks = words(MOST_BREAKING);
     p.size_shares = arena.take(MOST_BREAKING * sizeof(gpu::SizeShare));
     p.ledger = arena.take(MOST_BREAKING * sizeof(gpu::CrackLedger));

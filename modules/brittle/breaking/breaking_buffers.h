@@ -18,7 +18,8 @@ struct LastingBuffers {
 
 // Made anew in every step.
 struct PassingBuffers {
-    engine::BufferView blows, soonest, hardest, chosen, breaking, broken, cracks, size_shares, ledger, adopted, returned;
+    engine::BufferView blows, soonest, hardest, chosen, breaking, broken, reach_sums, cracks, size_shares, ledger, adopted,
+        returned;
     engine::BufferView owners, order, other_owners, other_order, sizes, begins, rooms, owner_start, lacking;
     engine::BufferView histogram, digit_offsets, sums;
     engine::BufferView turning, posed_bodies, posed_pieces, posed_pairs; // blows of bodies that turn, and the two as they meet

@@ -25,7 +25,7 @@ void recordVertices(Recorder& record, const GatherRoom& room, const GatherBuffer
 }
 
 void recordTriangles(Recorder& record, const GatherRoom& room, const GatherBuffers& b, engine::BufferView breaking,
-                     engine::BufferView vertices) {
+                     const SurfaceList& surfaces) {
     const Length triangles = Length::counted(COUNT_SOUP_TRIANGLES);
     record.run("flag_solid", triangles, engine::NoPush{}, {record.counts(), breaking, b.firsts, b.triangle_flags});
     record.scan(triangles, b.triangle_flags, b.sums, b.triangle_numbers,
@@ -33,9 +33,12 @@ void recordTriangles(Recorder& record, const GatherRoom& room, const GatherBuffe
                 true);
     record.run("write_vertices", Length::counted(COUNT_SOUP_CORNERS), room.triangles,
                {record.counts(), b.corners, b.vertex_numbers, b.mesh_positions, b.grid_vertices, record.args()});
-    record.run("write_triangles", triangles, engine::NoPush{},
-               {record.counts(), breaking, vertices, b.firsts, b.vertex_numbers, b.triangle_numbers, b.mesh_triangles,
-                b.corner_attributes, b.sides});
+    for (uint32_t k = 0; k < surfaces.parts(); ++k) {
+        const SurfacePart part = surfaces.part(k);
+        record.run("write_triangles", triangles, part.range,
+                   {record.counts(), breaking, part.vertices, b.firsts, b.vertex_numbers, b.triangle_numbers, b.mesh_triangles,
+                    b.corner_attributes, b.sides});
+    }
 }
 
 void recordEdges(Recorder& record, const GatherRoom& room, const GatherBuffers& b) {
@@ -84,12 +87,15 @@ GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room) 
 }
 
 void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers& b, engine::BufferView breaking,
-                  engine::BufferView vertices) {
+                  const SurfaceList& surfaces) {
     record.commands().beginLabel("gather");
-    record.run("gather_corners", Length::counted(COUNT_SOUP_CORNERS), engine::NoPush{},
-               {record.counts(), breaking, vertices, b.corners});
+    for (uint32_t k = 0; k < surfaces.parts(); ++k) {
+        const SurfacePart part = surfaces.part(k);
+        record.run("gather_corners", Length::counted(COUNT_SOUP_CORNERS), part.range,
+                   {record.counts(), breaking, part.vertices, b.corners});
+    }
     recordVertices(record, room, b);
-    recordTriangles(record, room, b, breaking, vertices);
+    recordTriangles(record, room, b, breaking, surfaces);
     recordEdges(record, room, b);
     record.commands().endLabel();
 }

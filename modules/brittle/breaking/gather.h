@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/arena.h"
+#include "modules/brittle/breaking/surface_list.h"
 #include "modules/brittle/fracture/recorder.h"
 #include "shaders-spirv/shared/breaking.h"
 
@@ -34,9 +35,9 @@ void takeGatherScratch(engine::ScratchArena& arena, const GatherRoom& room, Gath
 
 // Wants COUNT_BREAKING, COUNT_SOUP_TRIANGLES and COUNT_SOUP_CORNERS published; publishes COUNT_MESH_VERTICES,
 // COUNT_OWN_TRIANGLES, COUNT_EARLIER_TRIANGLES, COUNT_MESH_TRIANGLES, COUNT_MESH_CORNERS and COUNT_MESH_EDGES. `breaking`:
-// BreakingRecords in order; `vertices`: SceneVertex. What does not fit fails the event, as everywhere.
+// BreakingRecords in order. What does not fit fails the event, as everywhere.
 void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers& b, engine::BufferView breaking,
-                  engine::BufferView vertices);
+                  const SurfaceList& surfaces);
 
 // After that: `raw_sites`, three words each on the grids of their objects in their tiles, and `placed`, a word each, 0 for a
 // site that found no place. Wants COUNT_ASKED_SITES published. How they lie is said by their object's SITES_*.

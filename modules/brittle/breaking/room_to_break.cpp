@@ -17,8 +17,7 @@ using engine::Error, engine::ErrorCode;
 constexpr uint32_t kFragments = 1024, kMostUsualFragments = 8192, kFacesOfOne = 24, kTrianglesOfOne = 96;
 constexpr uint32_t kUsualForEach = 4, kMostKeptForEach = 8; // fragments
 constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
-constexpr uint64_t kMostUsualTriangles =
-    1'390'000; // 96 bytes each: as many as fit in 128 MiB, which every device binds at once
+constexpr uint64_t kMostUsualTriangles = 4ull * (kUsualPart - 1); // 96 bytes each: half a gigabyte
 
 uint32_t timesRounded(uint32_t count, uint32_t each) { return (count + each - 1) / each; }
 
@@ -53,6 +52,10 @@ uint32_t usualTriangles(const WorldContents& contents, uint32_t fragments, uint3
     triangles = std::max(triangles, kTrianglesOfOne * uint64_t{fragments});
     const uint64_t left = kMostUsualTriangles - std::min<uint64_t>(kMostUsualTriangles, contents.surface_vertices.size() / 3);
     return static_cast<uint32_t>(std::min(triangles, std::max<uint64_t>(left, 1)));
+}
+
+bool breaksInRays(const gpu::BreakableBody& body) {
+    return body.surface.w != NO_INDEX && static_cast<uint32_t>(body.high.w) == PATTERN_RADIAL;
 }
 
 uint32_t chosen(uint32_t given, uint32_t usual) { return given != 0 ? given : usual; }
@@ -113,6 +116,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     const auto breakable = static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
     const uint32_t fragments = chosen(budget.fragments, std::clamp(kUsualForEach * breakable, kFragments, kMostUsualFragments));
     room.whole = breakable;
+    room.radial = std::ranges::any_of(contents.breakable, breaksInRays);
     room.kept_for_each = std::min(kMostKeptForEach, fragments / (2 * std::max(breakable, 1u)));
     room.kept_for_whole = fragments / 2;
     room.step_bodies = std::min<uint32_t>(chosen(budget.step_bodies, kStepBodies), MOST_BREAKING);
@@ -127,12 +131,13 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     room.particles = chosen(budget.particles, kParticles);
     room.bodies = static_cast<uint32_t>(contents.bodies.size());
     room.pieces = static_cast<uint32_t>(contents.pieces.size());
-    const uint32_t faces = faceRoom(contents), triangles = static_cast<uint32_t>(contents.surface_vertices.size() / 3);
-    const std::array<uint32_t, POOLS> taken = {room.bodies, room.pieces, faces, triangles};
+    const uint32_t faces = faceRoom(contents);
+    room.surfaces = placeSurfaces(contents, chosen(budget.triangles, usualTriangles(contents, fragments, room.most_fragments)),
+                                  chosen(budget.part_triangles, kUsualPart));
     PoolRoom& pools = room.pools;
     pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + chosen(budget.faces, kFacesOfOne * fragments),
-                      triangles + chosen(budget.triangles, usualTriangles(contents, fragments, room.most_fragments))};
-    pools.objects = fragments + breakable;
+                      room.surfaces.capacity};
+    pools.objects = fragments + breakable + room.surfaces.parts() - 1; // what lies between two parts is taken, too
     pools.owners = room.step_bodies;
     pools.returned = std::max<uint32_t>(room.step_bodies, MOST_EXPIRING);
     if (const uint32_t beside = pools.ranges() - fragments; pools.ranges() > POOL_MOST_FREE)
@@ -140,8 +145,10 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
                                               " fragments at a time: beside these bodies there is room for " +
                                               std::to_string(POOL_MOST_FREE - std::min<uint32_t>(beside, POOL_MOST_FREE)) +
                                               " at most; give a smaller budget of fragments"};
-    for (size_t k = 0; k < POOLS; ++k)
+    const std::array<uint32_t, POOL_TRIANGLES> taken = {room.bodies, room.pieces, faces};
+    for (size_t k = 0; k < taken.size(); ++k)
         room.free[k] = {{taken[k], pools.capacity[k] - taken[k]}};
+    room.free[POOL_TRIANGLES] = room.surfaces.free;
     if (auto state = poolsWith(pools, room.free); !state) return state.error();
     return room;
 }
@@ -156,7 +163,7 @@ WorldContents withRoom(const WorldContents& contents, const RoomToBreak& room) {
     larger.shapes.resize(larger.bodies.size());
     larger.ids.resize(larger.bodies.size());
     larger.breakable.resize(larger.bodies.size(), unbreakable());
-    larger.surface_vertices.resize(3 * size_t{room.pools.capacity[POOL_TRIANGLES]});
+    moveSurfaces(larger, room.surfaces);
     return larger;
 }
 

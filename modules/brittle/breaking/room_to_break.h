@@ -1,6 +1,7 @@
 // How much may break: in a world at a time, and in one step.
 #pragma once
 
+#include "modules/brittle/breaking/surface_places.h"
 #include "modules/brittle/breaking/world_pools.h"
 #include "modules/brittle/dynamics/world_contents.h"
 
@@ -16,6 +17,7 @@ struct BreakingBudget {
     uint32_t step_sites = 0;
     uint32_t most_fragments = 0; // of one body
     uint32_t particles = 0;      // of dust, that fly at a time, rounded up to a power of two
+    uint32_t part_triangles = 0; // of the list of surfaces, that kernels take at once (surface_list.h)
 };
 
 struct RoomToBreak {
@@ -25,6 +27,8 @@ struct RoomToBreak {
     uint32_t whole = 0;               // bodies that can break, before anything does
     uint32_t kept_for_each = 0;       // fragments, for each body of the scene that has not broken yet
     uint32_t kept_for_whole = 0;      // fragments, for all of them together, by fragments that break again
+    bool radial = false;              // some body breaks in rays
+    SurfacePlaces surfaces;
     PoolRoom pools;
     FreeLists free; // before anything breaks
 };
@@ -35,9 +39,9 @@ uint32_t largestSurface(const WorldContents& contents);
 // Every number given. Errors: Capacity for more than pools can hold (world_pools.h).
 engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget);
 
-// The contents with empty slots for all that there is room for: absent bodies and pieces, and hulls laid out as fragments' are,
-// each in the slot of its piece, its vertices, edges and corners so many times its first face as
-// shaders-spirv/shared/breaking.h says.
+// The contents with empty slots for all that there is room for: absent bodies and pieces, surfaces in their places, and hulls
+// laid out as fragments' are, each in the slot of its piece. First vertices, edges and corners are multiples of the first face
+// (shaders-spirv/shared/breaking.h).
 WorldContents withRoom(const WorldContents& contents, const RoomToBreak& room);
 
 } // namespace brittle
