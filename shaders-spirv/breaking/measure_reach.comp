@@ -30,7 +30,7 @@ READS(9, StrikeRecord, records);
 #endif
 layout(push_constant) uniform Push {
     uint first_vertex, end_vertex; // of the part
-    uint most_triangles;           // of what breaks in a step
+    uint most_triangles;           // of all bodies that break in a step
 };
 #include "lib/broken_bodies.glsl"
 
@@ -43,7 +43,7 @@ vec3 cornerOf(uint vertex) {
 
 bool isInPart(uint body) { return breakable[body].surface.x >= first_vertex && breakable[body].surface.x < end_vertex; }
 
-// Of one triangle, in steps of the sum.
+// The share of one triangle, in steps of the sum.
 uint reachOver(uint triangle, vec3 place, Plane plane, float unit) {
     vec2 corners[3];
     for (uint c = 0u; c < 3u; c++) {

@@ -57,7 +57,7 @@ BlowRecord blowOf(uint body) {
     return blows[pair];
 }
 
-// Of the blow, from the body's center of mass, world axes.
+// The place of the blow, from the body's center of mass, along the world's axes.
 vec3 armOf(uint body) {
     BlowRecord blow = blowOf(body);
     uint pair = chosen[body];
@@ -73,7 +73,7 @@ uint trianglesOf(uint body) { return (breakable[body].surface.y + breakable[body
 uint patternOf(uint body) { return uint(breakable[body].high.w); }
 BodyForm formOfBody(uint body) { return formOf(breakable[body].form.x, breakable[body].form.y); }
 
-// Edges of the box that weighs as it does, along its own axes; of what has no mass those of its surface's bounds.
+// Edges of the box that weighs as it does, along its own axes; without mass those of its surface's bounds.
 vec3 edgesOf(uint body) {
     BreakableBody b = breakable[body];
     if (bodies[body].offset.w == 0.0) return b.high.xyz - b.low.xyz;

@@ -1,5 +1,5 @@
-// Tests that the list of surfaces can be taken in parts. A device binds only so many bytes at once, and worlds of fine meshes
-// need more. Small parts stand in for that here.
+// Tests that the list of surfaces can be taken in parts. A device binds 128 MiB at once or a little more, and worlds of fine
+// meshes need more. Small parts stand in for that here.
 #include "modules/brittle/breaking/surface_list.h"
 #include "modules/brittle/breaking/surface_places.h"
 #include "modules/brittle/drawing/drawing.h"
@@ -21,7 +21,7 @@ using namespace breaking_scenes;
 using brittle::BodyDescription, brittle::FreeRange, brittle::SceneDescription, brittle::SurfacePlaces, brittle::WorldContents;
 using engine_test::valuesOf;
 
-// Bodies with surfaces of so many triangles, one behind the other. Each vertex knows its triangle.
+// Bodies whose surfaces have `triangles` triangles, one behind the other. Each vertex knows its triangle.
 WorldContents contentsWith(const std::vector<uint32_t>& triangles) {
     WorldContents contents;
     for (const uint32_t count : triangles) {
@@ -150,7 +150,7 @@ void expectSameFragments(brittle::World& a, brittle::World& b, const std::string
     }
 }
 
-// What a draw of a body shows, in the frame of its vertices.
+// The vertices that a draw of a body shows, in their own frame.
 std::vector<gpu::SceneVertex> drawnOf(brittle::World& world, uint32_t body) {
     EXPECT_TRUE(world.updateDraws({0, 0, 0}));
     const auto buffers = world.drawBuffers();
@@ -184,7 +184,7 @@ TEST(SurfaceParts, ChangeNoBitOfHowThingsBreakAndMove) {
     expectSameFragments(*whole, *parts, "in the end");
     const auto drawn = drawnOf(*parts, 2);
     EXPECT_GE(drawn.size(), 60u) << "the ball";
-    expectSameBytes(drawnOf(*whole, 2), drawn, "what is drawn");
+    expectSameBytes(drawnOf(*whole, 2), drawn, "drawn vertices");
 }
 
 } // namespace
