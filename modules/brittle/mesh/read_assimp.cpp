@@ -1,5 +1,8 @@
 #include "modules/brittle/mesh/read_assimp.h"
 
+#include "modules/brittle/mesh/format.h"
+#include "modules/brittle/mesh/interchange/collada_text.h"
+#include "modules/brittle/mesh/interchange/fbx_objects.h"
 #include "modules/brittle/mesh/model_frame.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/text_reader.h"
@@ -7,11 +10,13 @@
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 namespace brittle {
 namespace {
@@ -55,7 +60,6 @@ engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Tra
         for (unsigned c = node->mNumChildren; c-- > 0;)
             waiting.emplace_back(node->mChildren[c], transform * toTransform(node->mChildren[c]->mTransformation));
     }
-    if (mesh_.triangleCount() == 0) return badInput("no triangles in it; export the model with its meshes");
     return mesh_.take();
 }
 
@@ -109,18 +113,22 @@ FileAxis fbxAxis(const aiScene& scene, const std::string& name, int otherwise) {
 
 // Centimeters per unit; 1 where the file does not say.
 double fbxUnit(const aiScene& scene) {
-    const float as_float = metadata<float>(scene, "UnitScaleFactor", 0);
-    return metadata<double>(scene, "UnitScaleFactor", as_float == 0 ? 1 : fromShortFloat(as_float));
+    const float as_float = metadata<float>(scene, "UnitScaleFactor", 1);
+    return metadata<double>(scene, "UnitScaleFactor", fromShortFloat(as_float));
 }
 
 RootNotes fbxRoot(const aiScene& scene) {
-    ModelFrame frame{fbxUnit(scene) / 100, fbxAxis(scene, "CoordAxis", 0), fbxAxis(scene, "UpAxis", 1),
-                     fbxAxis(scene, "FrontAxis", 2)};
+    ModelFrame frame{0.01, fbxAxis(scene, "CoordAxis", 0), fbxAxis(scene, "UpAxis", 1), fbxAxis(scene, "FrontAxis", 2)};
     std::vector<std::string> notes;
     if (!isPossible(frame)) {
-        notes.push_back("unit or axes in the settings of the file are impossible; taken as centimeters and y up");
+        notes.push_back("UpAxis, FrontAxis and CoordAxis are no three axes with their signs; taken as y up");
         frame = ModelFrame{0.01, {0, 1}, {1, 1}, {2, 1}};
     }
+    const double unit = fbxUnit(scene);
+    if (std::isfinite(unit) && unit > 0)
+        frame.meters_per_unit = unit / 100;
+    else
+        notes.push_back("UnitScaleFactor is " + formatNumber(unit) + ", must be above 0; taken as 1 cm");
     for (std::string& note : describeFrame(frame))
         notes.push_back(std::move(note));
     return {toMeters(frame), notes};
@@ -167,15 +175,40 @@ private:
     std::vector<std::string> warnings_;
 };
 
+// The names of assimp's meshes are the ids of their geometries.
+void noteUnusedGeometries(const aiScene& scene, std::set<std::string> geometries, std::vector<std::string>& notes) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        geometries.erase(scene.mMeshes[m]->mName.C_Str());
+    if (geometries.empty()) return;
+    const bool is_one = geometries.size() == 1;
+    notes.push_back(formatCount(geometries.size(), "geometry", "geometries") + " without a mesh in the scene " +
+                    (is_one ? "is left out: " : "are left out, such as: ") + *geometries.begin());
+}
+
+// A file and what was found in it before assimp reads it.
+struct Source {
+    std::string ending;
+    std::vector<std::string> notes;
+    std::set<std::string> geometries; // of COLLADA
+};
+
 // No post-processing: its triangulation, for one, asserts on damaged faces.
-engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene, const std::string& ending) {
+engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene, const Source& source) {
     if (!scene) return badInput("cannot be read: " + oneLine(importer.GetErrorString()) + "; export it again");
     if (!scene->mRootNode) return badInput("no scene in it; export the model again");
     RootNotes root{toTransform(scene->mRootNode->mTransformation), {}};
-    if (ending == ".fbx") root = fbxRoot(*scene);
-    if (ending == ".dae") root = colladaRoot(*scene);
+    if (source.ending == ".fbx") root = fbxRoot(*scene);
+    if (source.ending == ".dae") root = colladaRoot(*scene);
+    std::vector<std::string> notes = source.notes;
+    noteUnusedGeometries(*scene, source.geometries, notes);
     auto mesh = SceneFlattener().run(*scene, root.root);
-    if (mesh) mesh->notes.insert(mesh->notes.begin(), root.notes.begin(), root.notes.end());
+    if (!mesh) return mesh;
+    if (mesh->triangles.empty()) {
+        const std::string why = notes.empty() ? "" : " (" + notes.back() + ")";
+        return badInput("no triangles in it" + why + "; export the model with its meshes");
+    }
+    notes.insert(notes.begin(), root.notes.begin(), root.notes.end());
+    mesh->notes.insert(mesh->notes.begin(), notes.begin(), notes.end());
     return mesh;
 }
 
@@ -192,14 +225,15 @@ std::string withoutBlanksBehindTags(std::string_view text) {
     return result;
 }
 
-// `read` lets an importer read. Assimp has one logger for all; it is this process's own, which reads one file.
-template <class Read>
-engine::Result<ImportedMesh> readWithNotes(const std::string& ending, const Read& read) {
+// Assimp has one logger for all; it is this process's own, which reads one file.
+engine::Result<ImportedMesh> readWithNotes(std::string_view bytes, const Source& source) {
     WarningList warnings;
     constexpr unsigned kSevere = Assimp::Logger::Warn | Assimp::Logger::Err;
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)->attachStream(&warnings, kSevere);
     Assimp::Importer importer;
-    auto mesh = flatten(importer, read(importer), ending);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // it makes up a mesh of the nodes otherwise
+    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, source.ending.c_str() + 1);
+    auto mesh = flatten(importer, scene, source);
     Assimp::DefaultLogger::get()->detachStream(&warnings, kSevere);
     Assimp::DefaultLogger::kill();
     if (!mesh) return mesh;
@@ -208,27 +242,25 @@ engine::Result<ImportedMesh> readWithNotes(const std::string& ending, const Read
     return mesh;
 }
 
-engine::Result<ImportedMesh> readFromMemory(std::string_view bytes, const std::string& ending) {
-    return readWithNotes(ending, [&](Assimp::Importer& importer) {
-        return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1);
-    });
+engine::Result<ImportedMesh> readCollada(std::string_view bytes) {
+    auto checked = checkCollada(bytes);
+    if (!checked) return checked.error();
+    return readWithNotes(withoutBlanksBehindTags(checked->text), {".dae", checked->notes, checked->geometries});
 }
 
 } // namespace
 
 engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path, const std::string& ending) {
-    if (ending == ".dae") {
-        std::ifstream file(path, std::ios::binary);
-        const std::string text((std::istreambuf_iterator<char>(file)), {});
-        if (!file.is_open() || file.bad()) return badInput("cannot be read; check its permissions");
-        return readByAssimp(std::string_view(text), ending);
-    }
-    return readWithNotes(ending, [&](Assimp::Importer& importer) { return importer.ReadFile(path.string(), 0); });
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    if (!file.is_open() || file.bad()) return badInput("cannot be read; check its permissions");
+    return readByAssimp(std::string_view(bytes), ending);
 }
 
 engine::Result<ImportedMesh> readByAssimp(std::string_view bytes, const std::string& ending) {
     if (isUtf16(bytes)) return badInput(kUtf16);
-    return ending == ".dae" ? readFromMemory(withoutBlanksBehindTags(bytes), ending) : readFromMemory(bytes, ending);
+    if (ending == ".dae") return readCollada(bytes);
+    return readWithNotes(bytes, {ending, noteLostGeometries(bytes), {}});
 }
 
 } // namespace brittle
