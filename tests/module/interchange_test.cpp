@@ -102,6 +102,12 @@ TEST(FbxObjects, RefusalsOfEmptyScenesNameThem) {
         "meshes");
 }
 
+TEST(FbxObjects, RefusalsNameTheErrorOfTheirOnlyMesh) {
+    const std::string refusal = refusalOf(withReplaced(fbx(kMeters, kSize), ",3,7,-6", ",3,7,-66"), ".fbx");
+    EXPECT_NE(refusal.find("polygon vertex index out of range"), refusal.npos) << refusal;
+    EXPECT_TRUE(refusal.ends_with("); export the model with its meshes")) << refusal;
+}
+
 TEST(FbxObjects, CommentsAndTextsAreNoRecords) {
     const std::string text =
         "; Geometry: 7, \"Geometry::no\", \"Mesh\" {\nObjects: { ; {\nNote: \"Geometry: 8 {\"\nGeometry: 9, "
@@ -219,6 +225,55 @@ TEST(Collada, PrimitivesWithoutACountAreRefusedWithTheLine) {
 
 TEST(Collada, NegativeIndicesAreRefusedWithTheLine) {
     EXPECT_EQ(refusalOf(daeWith("<p>0 2 3 1", "\n<p>-1 2 3 1"), ".dae"), "line 2: a negative index; export the file again");
+}
+
+TEST(Collada, AccessorsBeyondTheirArraysAreRefusedWithTheLine) {
+    const std::string stride = "count=\"8\" stride=\"3\"", array = "<float_array id=\"a\" count=\"24\">";
+    EXPECT_EQ(refusalOf(daeWith(stride, "count=\"8\" stride=\"4\""), ".dae"),
+              "line 1: an accessor of 8 elements reaches beyond its array of 24 numbers; export the file again");
+    EXPECT_EQ(refusalOf(daeWith(stride, "offset=\"1\" " + stride), ".dae"),
+              "line 1: an accessor of 8 elements reaches beyond its array of 24 numbers; export the file again");
+    EXPECT_EQ(refusalOf(daeWith(array, "\n<float_array id=\"a\" count=\"21\">"), ".dae"),
+              "line 2: an accessor of 8 elements reaches beyond its array of 21 numbers; export the file again");
+    EXPECT_EQ(refusalOf(daeWith(array, "<float_array id=\"a\" count=\"25\">"), ".dae"),
+              "line 1: float_array has 24 numbers, its count is 25; the file is damaged, export it again");
+    EXPECT_EQ(refusalOf(daeWith("<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" ",
+                                "<param type=\"float\"/><param type=\"float\"/><param "),
+                        ".dae"),
+              "line 1: an accessor whose params have no names, such as X, Y and Z; export the file again");
+}
+
+TEST(Collada, NumbersBehindTheCountOfAnArrayAreNoted) {
+    const std::string file = daeWith("</float_array>", " 7 8 9</float_array>");
+    EXPECT_NEAR(volumeOf(file, ".dae"), 6, 1e-6);
+    EXPECT_EQ(notesOf(file, ".dae"), Notes{"numbers behind those that an array counts are left out: 1 array"});
+}
+
+TEST(Collada, NumbersMayHaveADecimalCommaAndNothingElse) {
+    const std::string file = collada("", {1.5, 2, 3});
+    std::string commas = file;
+    for (size_t at = commas.find("1.500000"); at != commas.npos; at = commas.find("1.500000"))
+        commas[at + 1] = ',';
+    ASSERT_NE(commas, file);
+    EXPECT_NEAR(volumeOf(commas, ".dae"), 9, 1e-6);
+    EXPECT_EQ(refusalOf(daeWith("count=\"24\">0.000000 ", "count=\"24\">\n0,1,2 "), ".dae"),
+              "line 2: an array holds something that is not a number; export the file again");
+}
+
+TEST(Collada, MatricesMustBeAffine) {
+    const std::string rows = "<matrix>1 0 0 5 0 1 0 0 0 0 1 0 ";
+    EXPECT_EQ(refusalOf(daeWith(kNode, kNode + rows + "0 0 0 1</matrix>"), ".dae"), "");
+    EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n" + rows + "0 0 1 1</matrix>"), ".dae"),
+              "line 2: a matrix must end in the row 0 0 0 1; export the file again");
+    EXPECT_NE(refusalOf(daeWith(kNode, kNode + rows + "0 0</matrix>"), ".dae"), "");
+}
+
+// Warnings about lamps are left out, but not those about meshes that are named like one.
+TEST(Collada, LostMeshesNamedLikeALampAreNoted) {
+    const std::string instance = "<instance_geometry url=\"#g\"/>";
+    const auto mesh = importMesh(daeWith(instance, instance + "<instance_geometry url=\"#LightTexture\"/>"), ".dae");
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_TRUE(std::ranges::any_of(mesh->notes, [](const auto& note) { return note.find("LightTexture") != note.npos; }));
 }
 
 TEST(Collada, GeometriesThatNoNodeShowsAreNamed) {

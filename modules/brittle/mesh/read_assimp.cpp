@@ -148,8 +148,9 @@ RootNotes colladaRoot(const aiScene& scene) {
 class WarningList final : public Assimp::LogStream {
 public:
     void write(const char* message) override {
-        const std::string text = withoutOrigin(oneLine(message));
-        if (isOfLooks(text)) return;
+        const std::string line = oneLine(message), text = withoutOrigin(line);
+        if (isOfLooks(withoutNames(text))) return;
+        if (line.starts_with("Error") && first_error_.empty()) first_error_ = text;
         if (warnings_.size() < kMost && std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(text);
     }
     std::vector<std::string> notes() const {
@@ -159,20 +160,34 @@ public:
         return notes;
     }
 
+    // Why a part is missing; empty if assimp reports no error.
+    const std::string& firstError() const { return first_error_; }
+
 private:
+    // A part may be named like a lamp.
+    static std::string withoutNames(const std::string& text) {
+        std::string rest;
+        bool is_name = false;
+        for (const char c : text) {
+            is_name ^= c == '"';
+            if (!is_name) rest += c;
+        }
+        return rest;
+    }
     // Messages begin with "Error, T0: ".
     static std::string withoutOrigin(const std::string& text) {
         const size_t colon = text.find(": ");
         return colon == text.npos ? text : text.substr(colon + 2);
     }
     static bool isOfLooks(const std::string& text) {
-        for (const char* word : {"aterial", "exture", "amera", "ight", "nimation"})
+        for (const char* word : {"aterial", "exture", "amera", " light", "Light", "nimation"})
             if (text.find(word) != text.npos) return true;
         return false;
     }
 
     static constexpr size_t kMost = 8;
     std::vector<std::string> warnings_;
+    std::string first_error_;
 };
 
 // The names of assimp's meshes are the ids of their geometries.
@@ -203,10 +218,6 @@ engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiS
     noteUnusedGeometries(*scene, source.geometries, notes);
     auto mesh = SceneFlattener().run(*scene, root.root);
     if (!mesh) return mesh;
-    if (mesh->triangles.empty()) {
-        const std::string why = notes.empty() ? "" : " (" + notes.back() + ")";
-        return badInput("no triangles in it" + why + "; export the model with its meshes");
-    }
     notes.insert(notes.begin(), root.notes.begin(), root.notes.end());
     mesh->notes.insert(mesh->notes.begin(), notes.begin(), notes.end());
     return mesh;
@@ -225,6 +236,13 @@ std::string withoutBlanksBehindTags(std::string_view text) {
     return result;
 }
 
+// Notes on the unit come first, those on lost parts last.
+engine::Error withoutTriangles(const std::vector<std::string>& notes, const std::string& error) {
+    const bool has_lost = !notes.empty() && notes.back().find("left out") != std::string::npos;
+    const std::string why = !error.empty() ? error : has_lost ? notes.back() : "";
+    return badInput("no triangles in it" + (why.empty() ? "" : " (" + why + ")") + "; export the model with its meshes");
+}
+
 // Assimp has one logger for all; it is this process's own, which reads one file.
 engine::Result<ImportedMesh> readWithNotes(std::string_view bytes, const Source& source) {
     WarningList warnings;
@@ -237,6 +255,7 @@ engine::Result<ImportedMesh> readWithNotes(std::string_view bytes, const Source&
     Assimp::DefaultLogger::get()->detachStream(&warnings, kSevere);
     Assimp::DefaultLogger::kill();
     if (!mesh) return mesh;
+    if (mesh->triangles.empty()) return withoutTriangles(mesh->notes, warnings.firstError());
     for (std::string& note : warnings.notes())
         mesh->notes.push_back(std::move(note));
     return mesh;

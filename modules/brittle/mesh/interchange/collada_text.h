@@ -16,7 +16,10 @@ struct ColladaText {
     std::set<std::string> geometries; // ids of all that the file has
 };
 
-// BadInput, with the line, for skewed nodes, polygons with holes, negative indices, and primitives without a count.
+// BadInput, with the line, for:
+//   skewed nodes; matrices that are no affine transforms
+//   polygons with holes; negative indices; primitives without a count
+//   accessors that reach beyond their arrays, or whose params have no names
 engine::Result<ColladaText> checkCollada(std::string_view text);
 
 } // namespace brittle
