@@ -109,6 +109,12 @@ TEST(GltfAccessor, SparseElementsWithoutAViewStandAmongZeros) {
     EXPECT_EQ(model.upper, (Double3{2, 3, 4}));
 }
 
+TEST(GltfAccessor, RefusesElementsThatAreReplacedTwice) {
+    GltfBuilder builder = cubeFile();
+    builder.json["accessors"][0]["sparse"] = sparseOf(builder, {7, 7}, {5, 5, 5, 6, 6, 6});
+    EXPECT_EQ(readModel(builder).refusal, "accessor 0, sparse, indices: index 1 is there twice; export the file again");
+}
+
 TEST(GltfAccessor, RefusesSparseElementsOutOfRange) {
     GltfBuilder builder = cubeFile();
     builder.json["accessors"][0]["sparse"] = sparseOf(builder, {8}, {5, 5, 5});
