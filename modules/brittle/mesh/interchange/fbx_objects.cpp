@@ -33,10 +33,9 @@ Objects readObjects(std::string_view fbx) {
         if (record.section == "Objects" && record.key == "Geometry" && values.size() >= 3)
             objects.geometries.push_back({values[0], plainName(values[1]), values[2]});
         if (record.section == "Objects" && record.key == "Model" && !values.empty()) objects.models.insert(values[0]);
-        // A fourth value names a property, such as a texture's color.
-        const bool joins = record.key == "C" || record.key == "Connect";
-        if (record.section == "Connections" && joins && values.size() == 3 && values[0] == "OO")
-            objects.children[values[2]].push_back(values[1]);
+        // OP and PP connect properties, such as a texture's color. Assimp takes any other word for OO.
+        const bool joins = record.key == "C" && values.size() >= 3 && values[0] != "OP" && values[0] != "PP";
+        if (record.section == "Connections" && joins) objects.children[values[2]].push_back(values[1]);
     });
     return objects;
 }
