@@ -1,5 +1,6 @@
 // Whole fractures of many models, by the pattern and at sites that are in ties, against the contract; and what is refused.
 #include "modules/brittle/export/glb.h"
+#include "modules/brittle/mesh/measures.h"
 #include "modules/brittle/mesh/primitives.h"
 #include "tests/hard/hard_sites.h"
 #include "tests/module/whole_fracture.h"
@@ -194,6 +195,15 @@ TEST(FractureCavities, StayWithThePieceAroundThem) {
             for (int z = -2; z <= 2; ++z)
                 cheese = cheese + turnedOver(moved(makeIcosphere(1), 0.4, {1.5 * x, 1.5 * y, 1.5 * z}));
     expectContractOf(modelFrom(cheese), {1, 8, 100});
+}
+
+// The contract includes that the volumes add up to that of the whole block.
+TEST(FractureCavities, MayBeFilledExactly) {
+    using namespace support;
+    const brittle::ImportedMesh filling = boxOf({-.2, -.2, -.2}, {.2, .2, .2});
+    const Model filled = modelFrom(boxOf({-.5, -.5, -.5}, {.5, .5, .5}) + turnedOver(filling) + filling);
+    EXPECT_NEAR(brittle::measureMesh(filled.prepared.mesh).volume, 1, 1e-6);
+    expectContractOf(filled, {1, 20, 300});
 }
 
 // More triangles around the hollow than one lane may walk.

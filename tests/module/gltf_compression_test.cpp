@@ -157,7 +157,7 @@ TEST(GltfMeshopt, RefusalsSayWhatIsWrong) {
               where + "byteStride is 260, must be a multiple of 4 up to 256; export the file again");
     EXPECT_EQ(refusalWith("mode", "TRIANGLES"), where + "byteStride is 12, must be 2 or 4 for indices; export the file again");
     EXPECT_EQ(refusalWith("mode", "SECRET"), where + "mode must be ATTRIBUTES, TRIANGLES or INDICES; export the file again");
-    EXPECT_EQ(refusalWith("filter", "SECRET"), where + "its filter is not known; export the file again");
+    EXPECT_EQ(refusalWith("filter", "SECRET"), where + "its filter \"SECRET\" is not known; export the file again");
     EXPECT_EQ(refusalWith("filter", "OCTAHEDRAL"),
               where + "byteStride is 12, must be 4 or 8 for the filter OCTAHEDRAL; export the file again");
     EXPECT_EQ(refusalWith("filter", "QUATERNION"),

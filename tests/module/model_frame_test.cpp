@@ -3,72 +3,16 @@
 #include "modules/brittle/mesh/import.h"
 #include "modules/brittle/mesh/model_frame.h"
 #include "modules/brittle/mesh/prepare.h"
+#include "tests/support/model_texts.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 using namespace brittle;
+using namespace support;
 
 namespace {
-
-// A box of that size in units of the file, its lower corner at the origin.
-std::string boxCorners(const Double3& size) {
-    std::string text;
-    for (int k = 0; k < 8; ++k)
-        for (int axis = 0; axis < 3; ++axis)
-            text += (text.empty() ? "" : ",") + std::to_string(k >> axis & 1 ? size[static_cast<size_t>(axis)] : 0.0);
-    return text;
-}
-
-struct FbxSettings {
-    double unit = 1; // centimeters
-    FileAxis right = {0, 1}, up = {1, 1}, front = {2, 1};
-};
-
-std::string axisLines(const std::string& name, const FileAxis& axis) {
-    return "P: \"" + name + "\", \"int\", \"Integer\", \"\"," + std::to_string(axis.index) + "\nP: \"" + name +
-           "Sign\", \"int\", \"Integer\", \"\"," + std::to_string(axis.sign) + "\n";
-}
-
-std::string settingsBlock(const FbxSettings& settings) {
-    return "GlobalSettings: {\nVersion: 1000\nProperties70: {\n" + axisLines("UpAxis", settings.up) +
-           axisLines("FrontAxis", settings.front) + axisLines("CoordAxis", settings.right) +
-           "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\"," + std::to_string(settings.unit) + "\n}\n}\n";
-}
-
-// FBX as text, with one node of that scale.
-std::string fbx(const std::string& settings, const Double3& size, double node_scale = 1) {
-    const std::string scale = std::to_string(node_scale);
-    return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n" + settings +
-           "Definitions: {\nVersion: 100\nCount: 2\nObjectType: \"Geometry\" {\nCount: 1\n}\nObjectType: \"Model\" {\nCount: "
-           "1\n}"
-           "\n}\nObjects: {\nGeometry: 100, \"Geometry::box\", \"Mesh\" {\nVertices: *24 {\na: " +
-           boxCorners(size) +
-           "\n}\nPolygonVertexIndex: *24 {\na: 0,2,3,-2,4,5,7,-7,0,1,5,-5,2,6,7,-4,0,4,6,-3,1,3,7,-6\n}\nGeometryVersion: "
-           "124\n}\n"
-           "Model: 200, \"Model::box\", \"Mesh\" {\nVersion: 232\nProperties70: {\nP: \"Lcl Scaling\", \"Lcl Scaling\", \"\", "
-           "\"A\"," +
-           scale + "," + scale + "," + scale +
-           "\n}\nShading: T\nCulling: \"CullingOff\"\n}\n}\nConnections: {\nC: \"OO\",200,0\nC: \"OO\",100,200\n}\n";
-}
-
-std::string collada(const std::string& asset, const Double3& size) {
-    std::string corners = boxCorners(size);
-    std::replace(corners.begin(), corners.end(), ',', ' ');
-    return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset>" +
-           asset + "</asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"24\">" +
-           corners +
-           "</float_array><technique_common><accessor source=\"#a\" count=\"8\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
-           "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
-           "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><polylist count=\"6\"><input "
-           "semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><vcount>4 4 4 4 4 4</vcount><p>0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 "
-           "6 2 "
-           "1 3 7 5</p></polylist></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\"><node "
-           "id=\"n\"><instance_geometry "
-           "url=\"#g\"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene "
-           "url=\"#s\"/></scene></COLLADA>";
-}
 
 struct Arrived {
     Double3 low = {0, 0, 0}, high = {0, 0, 0};
@@ -152,13 +96,29 @@ TEST(FbxAxes, LeftHandedOnesAreMirrored) {
     EXPECT_EQ(box.notes.back(), "left-handed axes: mirrored, so that they are right-handed");
 }
 
-TEST(FbxAxes, ImpossibleSettingsAreReported) {
-    for (const FbxSettings& settings : {FbxSettings{.up = kX}, {.up = {7, 1}}, {.up = {-1, 1}}, {.up = {1, 0}}, {.unit = -1}}) {
+TEST(FbxAxes, ImpossibleOnesAreReported) {
+    for (const FbxSettings& settings : {FbxSettings{.up = kX}, {.up = {7, 1}}, {.up = {-1, 1}}, {.up = {1, 0}}}) {
         const Arrived box = arrived(fbx(settingsBlock(settings), {100, 200, 300}), ".fbx");
         expectBox(box, {0, 0, 0}, {1, 2, 3});
-        EXPECT_EQ(box.notes.size(), 2u);
-        EXPECT_EQ(box.notes.front().substr(0, 12), "unit or axes");
+        EXPECT_EQ(box.notes,
+                  (std::vector<std::string>{"UpAxis, FrontAxis and CoordAxis are no three axes with their signs; taken as y up",
+                                            "unit: 1 cm; scaled by 0.01 to meters"}));
     }
+}
+
+// The unit says nothing of the axes, and they say nothing of it.
+TEST(FbxUnits, ImpossibleOnesAreReportedAndTheAxesKept) {
+    const Arrived box = arrived(fbx(settingsBlock({.unit = -2, .up = kZ, .front = kMinusY}), {100, 200, 300}), ".fbx");
+    expectBox(box, {0, 0, -2}, {1, 3, 0});
+    EXPECT_EQ(box.notes.front(), "UnitScaleFactor is -2, must be above 0; taken as 1 cm");
+    const Arrived turned_over = arrived(fbx(settingsBlock({.unit = 2, .up = kX}), {50, 100, 150}), ".fbx");
+    expectBox(turned_over, {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(FbxUnits, ZeroIsRefusedByName) {
+    const auto refused = importMesh(fbx(settingsBlock({.unit = 0}), {1, 2, 3}), ".fbx");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, "cannot be read: FBX: The UnitScaleFactor must be non-zero; export it again");
 }
 
 TEST(ColladaUnits, AreConvertedOnceAndReported) {
@@ -173,33 +133,25 @@ TEST(ColladaUnits, AreConvertedOnceAndReported) {
     expectBox(arrived(collada("<up_axis>X_UP</up_axis>", {1, 2, 3}), ".dae"), {-2, 0, 0}, {0, 1, 3});
 }
 
-// An exporter for Blender, of which models for Godot come, writes colors so.
-TEST(Collada, BlanksBeforeNumbersAreSkipped) {
-    const std::string effects =
-        "<library_effects><effect id=\"e\"><profile_COMMON><technique sid=\"t\"><blinn><emission><color>  0.0 "
-        "0.0 0.0 1.0  </color></emission></blinn></technique></profile_COMMON></effect></library_effects>";
-    std::string text = collada("<up_axis>Y_UP</up_axis>", {1, 2, 3});
-    text.insert(text.find("<library_geometries>"), effects);
-    expectBox(arrived(text, ".dae"), {0, 0, 0}, {1, 2, 3});
+TEST(ColladaUnits, ImpossibleOnesAreMetersAndTheAxisIsKept) {
+    for (const char* unit : {"0", "-1", "abc", "nan", "1e999"}) {
+        const Arrived box = arrived(
+            collada("<unit name=\"x\" meter=\"" + std::string(unit) + "\"/><up_axis>Z_UP</up_axis>", {1, 2, 3}), ".dae");
+        expectBox(box, {0, 0, -2}, {1, 3, 0});
+        EXPECT_EQ(box.notes, (std::vector<std::string>{"z up: turned so that y is up",
+                                                       "unit meter is \"" + std::string(unit) +
+                                                           "\", must be a number above 0; taken as 1 meter"}));
+    }
 }
 
-TEST(Collada, PartsThatReferToNothingAreNoted) {
-    std::string text = collada("<up_axis>Y_UP</up_axis>", {1, 2, 3});
-    const std::string instance = "<instance_geometry url=\"#g\"/>";
-    ASSERT_NE(text.find(instance), text.npos);
-    text.insert(text.find(instance), "<instance_geometry url=\"#missing\"/>");
-    const auto mesh = importMesh(text, ".dae");
-    ASSERT_TRUE(mesh) << mesh.error().message;
-    EXPECT_TRUE(std::ranges::any_of(mesh->notes, [](const std::string& note) { return note.find("missing") != note.npos; }));
+TEST(ColladaUnits, MayHaveADecimalComma) {
+    expectBox(arrived(collada("<unit meter='0,5'/>", {2, 4, 6}), ".dae"), {0, 0, 0}, {1, 2, 3});
 }
 
-TEST(Collada, Utf16IsRefusedByName) {
-    std::string wide = "\xFF\xFE";
-    for (const char c : collada("", {1, 2, 3}))
-        wide += std::string{c, '\0'};
-    const auto refused = importMesh(wide, ".dae");
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message, "saved as UTF-16; save it as ASCII or UTF-8");
+TEST(ColladaUnits, AnUnknownAxisIsReported) {
+    const Arrived box = arrived(collada("<up_axis>W_UP</up_axis>", {1, 2, 3}), ".dae");
+    expectBox(box, {0, 0, 0}, {1, 2, 3});
+    EXPECT_EQ(box.notes, std::vector<std::string>{"up_axis is \"W_UP\", must be X_UP, Y_UP or Z_UP; taken as Y_UP"});
 }
 
 TEST(ModelFrame, IsFoundInItsTransform) {

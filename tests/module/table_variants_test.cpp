@@ -66,6 +66,8 @@ std::string binaryPly(const std::array<std::string, 3>& types, bool is_big, cons
 std::vector<Variant> plyTexts() {
     const std::string edge_head = "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
     return {
+        {"NoHeight", ".ply", replaced(kHead, "float z", "float height") + kVertices + kFaceRows,
+         "element vertex has no property z; export the model again"},
         {"Plain", ".ply", kPly},
         {"OtherListName", ".ply", replaced(kPly, "vertex_indices", "vertex_index")},
         {"Comments", ".ply",
@@ -83,7 +85,8 @@ std::vector<Variant> plyTexts() {
          replaced(replaced(kHead, "property list", "property uchar flags\nproperty list"), "element face",
                   "property uchar red\nelement face") +
              "0 0 0 9\n1 0 0 9\n0 1 0 9\n0 0 1 9\n1 3 0 2 1\n1 3 0 1 3\n1 3 1 2 3\n1 3 0 3 2\n"},
-        {"EmptyFaces", ".ply", replaced(kHead, "face 4", "face 6") + kVertices + "0\n2 1 2\n" + kFaceRows},
+        {"EmptyFaces", ".ply", replaced(kHead, "face 4", "face 6") + kVertices + "0\n2 1 2\n" + kFaceRows, "",
+         "points, lines and faces of one or two corners are left out: 1"},
         {"Trailing", ".ply", kPly + "3 0 1 2\n", "", "bytes after the last element are left out"},
         {"FacesAndStrips", ".ply",
          kAscii + kVertexHead + kFaceHead + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
@@ -139,6 +142,8 @@ std::string offWith(const std::string& magic, const std::string& behind_vertices
 
 std::vector<Variant> offVariants() {
     return {
+        {"FacesOfTwoCorners", ".off", "OFF\n4 6 0\n" + kVertices + kFaceRows + "2 0 1\n1 2\n", "",
+         "points, lines and faces of one or two corners are left out: 2"},
         {"Plain", ".off", kOff},
         {"CountsOnTheFirstLine", ".off", replaced(kOff, "OFF\n", "OFF ")},
         {"CountsTouchTheMagic", ".off", replaced(kOff, "OFF\n", "OFF")},

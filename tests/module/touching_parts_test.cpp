@@ -122,6 +122,24 @@ TEST(TouchingParts, ASolidMayFillAHollow) {
     }
 }
 
+// The filling has every face of the hollow, so all its triangles are doubled.
+TEST(TouchingParts, ASolidMayFillAHollowExactly) {
+    for (const double inner : {0.4, 0.5, 1.0 / 3})
+        for (const Double3& at : {Double3{0, 0, 0}, Double3{0.05, -0.02, 0.1}}) {
+            const ImportedMesh filling = blockAt({inner, inner, inner}, at);
+            expectSound(makeCube() + turnedOver(filling) + filling, 1, 3);
+            EXPECT_EQ(inspect(makeCube() + turnedOver(filling) + filling).touching_triangles, 12u);
+        }
+}
+
+TEST(TouchingParts, AHollowWithNoSolidAroundItIsADoubledSurface) {
+    const MeshReport alone = inspect(makeCube() + turnedOver(makeCube()));
+    ASSERT_FALSE(alone.isSound());
+    EXPECT_EQ(alone.duplicate_triangles, 12u);
+    const ImportedMesh ball = moved(makeIcosphere(1), 2, {9, 0, 0}); // larger, yet elsewhere
+    EXPECT_GT(inspect(ball + makeCube() + turnedOver(makeCube())).misplaced_components, 0u);
+}
+
 TEST(TouchingParts, AShellMayBeThinnerThanATouch) {
     const double inner = 1 - 4e-7;
     const MeshReport report = inspect(makeIcosphere(1) + turnedOver(moved(makeIcosphere(1), inner, {0, 0, 0})));

@@ -37,6 +37,22 @@ bool facesBack(const Index3& a, const Index3& b) {
     return b[(k + 1) % 3] == a[2];
 }
 
+double largestVolume(const Components& components) {
+    double largest = 0;
+    for (const Component& component : components.all)
+        largest = std::max(largest, component.volume);
+    return largest;
+}
+
+// Returns whether two components may share a wall: two solids, or a solid that fills a hollow. A hollow needs a solid larger
+// than itself around it; without one, the two components are the sides of one doubled surface.
+bool areNeighbors(const Components& components, uint32_t a, uint32_t b, double largest) {
+    constexpr double kRounding = 1e-9; // of volumes
+    const auto [less, more] = std::minmax(components.all[a].volume, components.all[b].volume);
+    if (a == b || !(more > 0)) return false;
+    return less > 0 || largest * (1 - kRounding) > -less;
+}
+
 class Inspector {
 public:
     Inspector(const Mesh& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
@@ -174,14 +190,14 @@ void Inspector::checkNesting(const TriangleTree& tree, const Components& compone
 
 Duplicates findDuplicates(const Mesh& mesh, const Components& components) {
     Duplicates found;
-    const auto is_solid = [&](uint32_t t) { return components.all[components.of[t]].volume > 0; };
+    const double largest = largestVolume(components);
     const std::vector<std::array<uint32_t, 2>> coincident = findCoincident(mesh);
     for (size_t k = 0; k < coincident.size(); ++k) {
         const auto& [first, other] = coincident[k];
         const bool is_alone =
             (k == 0 || coincident[k - 1][1] != first) && (k + 1 == coincident.size() || coincident[k + 1][0] != other);
         const bool is_wall = is_alone && facesBack(mesh.triangles[first], mesh.triangles[other]) &&
-                             components.of[first] != components.of[other] && is_solid(first) && is_solid(other);
+                             areNeighbors(components, components.of[first], components.of[other], largest);
         if (is_wall)
             ++found.walls;
         else

@@ -29,7 +29,7 @@ struct MeshReport {
 };
 
 // Triangles that have the same three corners as an earlier one. Two that face each other and belong to two solids are a wall
-// between solids that touch, and are no fault.
+// between solids that touch, and are no fault. The same holds for a hollow and the solid that fills it.
 struct Duplicates {
     std::vector<uint32_t> faulty;
     uint32_t walls = 0;

@@ -17,6 +17,7 @@ std::vector<Index3> cutFoldedQuad(const std::vector<Double3>& p) {
 } // namespace
 
 const char* MeshBuilder::addPolygon(std::span<const PolygonCorner> corners) {
+    if (corners.size() == 1 || corners.size() == 2) ++small_faces_;
     corners_.clear();
     for (const PolygonCorner& corner : corners)
         if (corners_.empty() || corners_.back().position != corner.position) corners_.push_back(corner);
@@ -45,6 +46,8 @@ const char* MeshBuilder::addPolygon(std::span<const PolygonCorner> corners) {
 ImportedMesh MeshBuilder::take() {
     if (folded_quads_ > 0)
         mesh_.notes.push_back("quads that seem to cross themselves are cut along a diagonal: " + std::to_string(folded_quads_));
+    if (small_faces_ > 0)
+        mesh_.notes.push_back("points, lines and faces of one or two corners are left out: " + std::to_string(small_faces_));
     return std::move(mesh_);
 }
 

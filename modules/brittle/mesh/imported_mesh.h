@@ -32,10 +32,10 @@ public:
     size_t triangleCount() const { return mesh_.triangles.size(); }
 
     // The corners' positions must be there already. Says what is wrong with the polygon, nullptr if nothing is.
-    // Corners that repeat the one before are skipped; what then has fewer than three is no polygon and adds nothing. A bent
-    // quad that seems to cross itself is cut along a diagonal: checks of the mesh report the harm, if any.
+    // Corners that repeat the one before are skipped; a polygon with fewer than three others has no area and adds nothing. A
+    // bent quad that seems to cross itself is cut along a diagonal: checks of the mesh report the harm, if any.
     const char* addPolygon(std::span<const PolygonCorner> corners);
-    // Adds a note on what was cut anyhow.
+    // Adds notes on quads that fold and on faces of one or two corners.
     ImportedMesh take();
 
 private:
@@ -44,7 +44,7 @@ private:
     ImportedMesh mesh_;
     std::vector<PolygonCorner> corners_; // of the current polygon
     std::vector<Double3> outline_;
-    size_t folded_quads_ = 0;
+    size_t folded_quads_ = 0, small_faces_ = 0;
 };
 
 } // namespace brittle

@@ -1,5 +1,8 @@
 #include "modules/brittle/mesh/read_assimp.h"
 
+#include "modules/brittle/mesh/format.h"
+#include "modules/brittle/mesh/interchange/collada_text.h"
+#include "modules/brittle/mesh/interchange/fbx_objects.h"
 #include "modules/brittle/mesh/model_frame.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/text_reader.h"
@@ -7,11 +10,13 @@
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 namespace brittle {
 namespace {
@@ -55,7 +60,6 @@ engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Tra
         for (unsigned c = node->mNumChildren; c-- > 0;)
             waiting.emplace_back(node->mChildren[c], transform * toTransform(node->mChildren[c]->mTransformation));
     }
-    if (mesh_.triangleCount() == 0) return badInput("no triangles in it; export the model with its meshes");
     return mesh_.take();
 }
 
@@ -109,18 +113,22 @@ FileAxis fbxAxis(const aiScene& scene, const std::string& name, int otherwise) {
 
 // Centimeters per unit; 1 where the file does not say.
 double fbxUnit(const aiScene& scene) {
-    const float as_float = metadata<float>(scene, "UnitScaleFactor", 0);
-    return metadata<double>(scene, "UnitScaleFactor", as_float == 0 ? 1 : fromShortFloat(as_float));
+    const float as_float = metadata<float>(scene, "UnitScaleFactor", 1);
+    return metadata<double>(scene, "UnitScaleFactor", fromShortFloat(as_float));
 }
 
 RootNotes fbxRoot(const aiScene& scene) {
-    ModelFrame frame{fbxUnit(scene) / 100, fbxAxis(scene, "CoordAxis", 0), fbxAxis(scene, "UpAxis", 1),
-                     fbxAxis(scene, "FrontAxis", 2)};
+    ModelFrame frame{0.01, fbxAxis(scene, "CoordAxis", 0), fbxAxis(scene, "UpAxis", 1), fbxAxis(scene, "FrontAxis", 2)};
     std::vector<std::string> notes;
     if (!isPossible(frame)) {
-        notes.push_back("unit or axes in the settings of the file are impossible; taken as centimeters and y up");
+        notes.push_back("UpAxis, FrontAxis and CoordAxis are no three axes with their signs; taken as y up");
         frame = ModelFrame{0.01, {0, 1}, {1, 1}, {2, 1}};
     }
+    const double unit = fbxUnit(scene);
+    if (std::isfinite(unit) && unit > 0)
+        frame.meters_per_unit = unit / 100;
+    else
+        notes.push_back("UnitScaleFactor is " + formatNumber(unit) + ", must be above 0; taken as 1 cm");
     for (std::string& note : describeFrame(frame))
         notes.push_back(std::move(note));
     return {toMeters(frame), notes};
@@ -140,8 +148,9 @@ RootNotes colladaRoot(const aiScene& scene) {
 class WarningList final : public Assimp::LogStream {
 public:
     void write(const char* message) override {
-        const std::string text = withoutOrigin(oneLine(message));
-        if (isOfLooks(text)) return;
+        const std::string line = oneLine(message), text = withoutOrigin(line);
+        if (isOfLooks(withoutNames(text))) return;
+        if (line.starts_with("Error") && first_error_.empty()) first_error_ = text;
         if (warnings_.size() < kMost && std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(text);
     }
     std::vector<std::string> notes() const {
@@ -151,31 +160,66 @@ public:
         return notes;
     }
 
+    // Why a part is missing; empty if assimp reports no error.
+    const std::string& firstError() const { return first_error_; }
+
 private:
+    // A part may be named like a lamp.
+    static std::string withoutNames(const std::string& text) {
+        std::string rest;
+        bool is_name = false;
+        for (const char c : text) {
+            is_name ^= c == '"';
+            if (!is_name) rest += c;
+        }
+        return rest;
+    }
     // Messages begin with "Error, T0: ".
     static std::string withoutOrigin(const std::string& text) {
         const size_t colon = text.find(": ");
         return colon == text.npos ? text : text.substr(colon + 2);
     }
     static bool isOfLooks(const std::string& text) {
-        for (const char* word : {"aterial", "exture", "amera", "ight", "nimation"})
+        for (const char* word : {"aterial", "exture", "amera", " light", "Light", "nimation"})
             if (text.find(word) != text.npos) return true;
         return false;
     }
 
     static constexpr size_t kMost = 8;
     std::vector<std::string> warnings_;
+    std::string first_error_;
+};
+
+// The names of assimp's meshes are the ids of their geometries.
+void noteUnusedGeometries(const aiScene& scene, std::set<std::string> geometries, std::vector<std::string>& notes) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        geometries.erase(scene.mMeshes[m]->mName.C_Str());
+    if (geometries.empty()) return;
+    const bool is_one = geometries.size() == 1;
+    notes.push_back(formatCount(geometries.size(), "geometry", "geometries") + " without a mesh in the scene " +
+                    (is_one ? "is left out: " : "are left out, such as: ") + *geometries.begin());
+}
+
+// A file and what was found in it before assimp reads it.
+struct Source {
+    std::string ending;
+    std::vector<std::string> notes;
+    std::set<std::string> geometries; // of COLLADA
 };
 
 // No post-processing: its triangulation, for one, asserts on damaged faces.
-engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene, const std::string& ending) {
+engine::Result<ImportedMesh> flatten(const Assimp::Importer& importer, const aiScene* scene, const Source& source) {
     if (!scene) return badInput("cannot be read: " + oneLine(importer.GetErrorString()) + "; export it again");
     if (!scene->mRootNode) return badInput("no scene in it; export the model again");
     RootNotes root{toTransform(scene->mRootNode->mTransformation), {}};
-    if (ending == ".fbx") root = fbxRoot(*scene);
-    if (ending == ".dae") root = colladaRoot(*scene);
+    if (source.ending == ".fbx") root = fbxRoot(*scene);
+    if (source.ending == ".dae") root = colladaRoot(*scene);
+    std::vector<std::string> notes = source.notes;
+    noteUnusedGeometries(*scene, source.geometries, notes);
     auto mesh = SceneFlattener().run(*scene, root.root);
-    if (mesh) mesh->notes.insert(mesh->notes.begin(), root.notes.begin(), root.notes.end());
+    if (!mesh) return mesh;
+    notes.insert(notes.begin(), root.notes.begin(), root.notes.end());
+    mesh->notes.insert(mesh->notes.begin(), notes.begin(), notes.end());
     return mesh;
 }
 
@@ -192,43 +236,50 @@ std::string withoutBlanksBehindTags(std::string_view text) {
     return result;
 }
 
-// `read` lets an importer read. Assimp has one logger for all; it is this process's own, which reads one file.
-template <class Read>
-engine::Result<ImportedMesh> readWithNotes(const std::string& ending, const Read& read) {
+// Notes on the unit come first, those on lost parts last.
+engine::Error withoutTriangles(const std::vector<std::string>& notes, const std::string& error) {
+    const bool has_lost = !notes.empty() && notes.back().find("left out") != std::string::npos;
+    const std::string why = !error.empty() ? error : has_lost ? notes.back() : "";
+    return badInput("no triangles in it" + (why.empty() ? "" : " (" + why + ")") + "; export the model with its meshes");
+}
+
+// Assimp has one logger for all; it is this process's own, which reads one file.
+engine::Result<ImportedMesh> readWithNotes(std::string_view bytes, const Source& source) {
     WarningList warnings;
     constexpr unsigned kSevere = Assimp::Logger::Warn | Assimp::Logger::Err;
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)->attachStream(&warnings, kSevere);
     Assimp::Importer importer;
-    auto mesh = flatten(importer, read(importer), ending);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // it makes up a mesh of the nodes otherwise
+    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, source.ending.c_str() + 1);
+    auto mesh = flatten(importer, scene, source);
     Assimp::DefaultLogger::get()->detachStream(&warnings, kSevere);
     Assimp::DefaultLogger::kill();
     if (!mesh) return mesh;
+    if (mesh->triangles.empty()) return withoutTriangles(mesh->notes, warnings.firstError());
     for (std::string& note : warnings.notes())
         mesh->notes.push_back(std::move(note));
     return mesh;
 }
 
-engine::Result<ImportedMesh> readFromMemory(std::string_view bytes, const std::string& ending) {
-    return readWithNotes(ending, [&](Assimp::Importer& importer) {
-        return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str() + 1);
-    });
+engine::Result<ImportedMesh> readCollada(std::string_view bytes) {
+    auto checked = checkCollada(bytes);
+    if (!checked) return checked.error();
+    return readWithNotes(withoutBlanksBehindTags(checked->text), {".dae", checked->notes, checked->geometries});
 }
 
 } // namespace
 
 engine::Result<ImportedMesh> readByAssimp(const std::filesystem::path& path, const std::string& ending) {
-    if (ending == ".dae") {
-        std::ifstream file(path, std::ios::binary);
-        const std::string text((std::istreambuf_iterator<char>(file)), {});
-        if (!file.is_open() || file.bad()) return badInput("cannot be read; check its permissions");
-        return readByAssimp(std::string_view(text), ending);
-    }
-    return readWithNotes(ending, [&](Assimp::Importer& importer) { return importer.ReadFile(path.string(), 0); });
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    if (!file.is_open() || file.bad()) return badInput("cannot be read; check its permissions");
+    return readByAssimp(std::string_view(bytes), ending);
 }
 
 engine::Result<ImportedMesh> readByAssimp(std::string_view bytes, const std::string& ending) {
     if (isUtf16(bytes)) return badInput(kUtf16);
-    return ending == ".dae" ? readFromMemory(withoutBlanksBehindTags(bytes), ending) : readFromMemory(bytes, ending);
+    if (ending == ".dae") return readCollada(bytes);
+    return readWithNotes(bytes, {ending, noteLostGeometries(bytes), {}});
 }
 
 } // namespace brittle

@@ -229,8 +229,9 @@ const char* ObjReader::readFace(Words words, const Statement& statement) {
     corners_.clear();
     for (const CornerIndices& indices : indices_)
         if (const char* wrong = findCorner(indices, corners_.emplace_back(), statement.line)) return wrong;
-    if (corners_.size() < 3) small_faces_.add(statement.line);
-    return mesh_.addPolygon(corners_);
+    if (corners_.size() >= 3) return mesh_.addPolygon(corners_);
+    small_faces_.add(statement.line);
+    return nullptr;
 }
 
 // The shape needs no normals or texture coordinates: if an index leads nowhere, they are left out.

@@ -159,6 +159,10 @@ bool isIndexList(const Property& property) {
 // Faults of the header as a whole.
 engine::Result<void> PlyReader::checkElements() const {
     const Element* vertices = find("vertex");
+    for (const char* axis : {"x", "y", "z"})
+        if (vertices && std::none_of(vertices->properties.begin(), vertices->properties.end(),
+                                     [&](const Property& property) { return property.name == axis && !property.count_type; }))
+            return badInput(std::string("element vertex has no property ") + axis + "; export the model again");
     if (hasRows("vertex") && !hasRows("face") && !hasRows("tristrips"))
         return badInput("no faces but " + std::to_string(vertices->count) +
                         " points in it; make a surface of them and export its faces");

@@ -118,6 +118,7 @@ private:
     const char* beginLoop();
     const char* endFacet();
     const char* endSolid();
+    void skipName();
 
     TextReader text_;
     FacetBuilder mesh_;
@@ -150,8 +151,8 @@ const char* StlTextReader::readWord(std::string_view word) {
     if (isWord(word, "vertex")) return readVertex();
     if (isWord(word, "facet") && !corners_.empty()) return "a facet that does not end; export the file again";
     if (isWord(word, "solid")) {
-        text_.nextLine(); // its name
         has_ended_ = false;
+        skipName();
     }
     return nullptr;
 }
@@ -184,9 +185,24 @@ const char* StlTextReader::endFacet() {
 
 const char* StlTextReader::endSolid() {
     if (!corners_.empty()) return "a facet that does not end; export the file again";
-    text_.nextLine(); // its name
     has_ended_ = true;
+    skipName();
     return nullptr;
+}
+
+// The name ends with the line. Some programs write no line ends: then it ends before the first facet, of this solid or of the
+// next.
+void StlTextReader::skipName() {
+    const size_t line = text_.line();
+    TextReader ahead = text_;
+    for (std::string_view word = ahead.nextWord(); !word.empty() && ahead.line() == line; word = ahead.nextWord()) {
+        const std::string_view next = TextReader(ahead).nextWord();
+        if (isWord(word, "facet") && (isWord(next, "normal") || isWord(next, "outer"))) {
+            has_ended_ = false;
+            return;
+        }
+        text_ = ahead;
+    }
 }
 
 // Searches the first words for "solid" or "facet". Other words may stand before it.

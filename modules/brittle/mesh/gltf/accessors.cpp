@@ -155,12 +155,16 @@ void Accessors::replaceSparse(const Element& accessor, const AccessorShape& shap
     if (!componentOf(indices, of_indices.component_type).is_unsigned)
         indices.refuse("componentType of indices must be 5121, 5123 or 5125");
     const Elements places = within(indices, of_indices), elements = within(replacements, of_values);
+    std::vector<bool> is_replaced(shape.count, false);
     for (uint64_t k = 0; k < of_values.count; ++k) {
         double place = 0;
         readElement(places, of_indices, k, &place);
         if (place >= static_cast<double>(shape.count))
             indices.refuse("index " + std::to_string(k) + " is beyond the " + std::to_string(shape.count) + " elements");
-        readElement(elements, of_values, k, &values[static_cast<uint64_t>(place) * shape.components]);
+        const auto element = static_cast<uint64_t>(place);
+        if (is_replaced[element]) indices.refuse("index " + std::to_string(k) + " is there twice");
+        is_replaced[element] = true;
+        readElement(elements, of_values, k, &values[element * shape.components]);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "modules/brittle/mesh/gltf/container.h"
 
 #include "modules/brittle/mesh/gltf/element.h"
+#include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/text_reader.h"
 
 #include <cstring>
@@ -40,9 +41,11 @@ std::string_view withoutPadding(std::string_view text) {
 } // namespace
 
 Container splitContainer(std::string_view bytes) {
+    if (isUtf16(bytes)) throw Refusal{kUtf16};
     if (!bytes.starts_with("glTF")) return {withoutMark(bytes), {}, false};
     Container container;
     std::string_view rest = withoutHeader(bytes);
+    container.bytes_behind = bytes.size() - kHeaderBytes - rest.size();
     for (size_t index = 0; rest.size() >= kChunkHeaderBytes; ++index) {
         const uint32_t length = wordAt(rest, 0), type = wordAt(rest, 4);
         rest.remove_prefix(kChunkHeaderBytes);

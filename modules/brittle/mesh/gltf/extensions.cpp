@@ -56,7 +56,11 @@ void checkRequired(const Document& document) {
 } // namespace
 
 void checkVersion(const Document& document) {
-    const Element asset = document.root().requiredObject("asset");
+    const Element root = document.root();
+    // Files of version 1.0 need no asset. They have names where 2.0 has numbers.
+    if (!root.has("asset") && root.has("meshes") && root.json()["meshes"].is_object())
+        root.refuse("it is glTF 1.0, which is not read", "convert the file to glTF 2.0");
+    const Element asset = root.requiredObject("asset");
     const Json* number =
         asset.json().contains("version") && asset.json()["version"].is_number() ? &asset.json()["version"] : nullptr;
     const std::string version = number ? number->dump() : asset.text("version").value_or("");

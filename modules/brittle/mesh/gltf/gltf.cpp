@@ -12,11 +12,11 @@ namespace gltf {
 namespace {
 
 // Weights of the morph targets; empty if none of them changes anything.
-std::vector<double> targetWeights(const Element& mesh, const Element& primitive, const Element& node) {
+std::vector<double> targetWeights(const Element& mesh, const Element& node) {
     auto weights = node.numbers("weights");
     if (!weights) weights = mesh.numbers("weights");
     const bool is_changed = weights && std::ranges::any_of(*weights, [](double w) { return w != 0; });
-    return is_changed && primitive.list("targets") ? *weights : std::vector<double>();
+    return is_changed ? *weights : std::vector<double>();
 }
 
 class Flattener {
@@ -24,6 +24,9 @@ public:
     Flattener(const Document& document, Buffers& buffers, uint64_t most_elements)
         : document_(document), accessors_(document, buffers), primitives_(document, buffers, accessors_, notes_),
           most_elements_(most_elements) {}
+    void noteBytesBehind(size_t count) {
+        notes_.leaveOut("byte behind the GLB", "bytes behind the GLB", "its header ends before them", count);
+    }
     ImportedMesh run();
 
 private:
@@ -75,7 +78,7 @@ void Flattener::addMesh(const Element& mesh, const std::vector<uint64_t>& nodes)
         if (!geometry) continue;
         for (const uint64_t n : nodes) {
             const Element node = document_.element("nodes", n, "the scene");
-            const std::vector<double> weights = targetWeights(mesh, primitive, node);
+            const std::vector<double> weights = targetWeights(mesh, node);
             if (weights.empty()) {
                 addPlaced(primitive, *geometry, node, scene_.worlds[n]);
                 continue;
@@ -154,7 +157,9 @@ engine::Result<ImportedMesh> read(std::string_view bytes, const ReadNeighbor& re
     const Document document(container.json);
     Buffers buffers(document, container.has_binary ? std::optional(container.binary) : std::nullopt, read_neighbor);
     buffers.countBytes(bytes.size());
-    return Flattener(document, buffers, most_elements).run();
+    Flattener flattener(document, buffers, most_elements);
+    flattener.noteBytesBehind(container.bytes_behind);
+    return flattener.run();
 }
 
 } // namespace

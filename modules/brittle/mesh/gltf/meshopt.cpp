@@ -40,7 +40,7 @@ Layout layoutOf(const Element& extension, uint64_t compressed) {
     if (!isAttributes(layout) && layout.mode != "TRIANGLES" && layout.mode != "INDICES")
         extension.refuse("mode must be ATTRIBUTES, TRIANGLES or INDICES");
     const bool is_known = layout.filter == "OCTAHEDRAL" || layout.filter == "QUATERNION" || layout.filter == "EXPONENTIAL";
-    if (!is_known && layout.filter != "NONE") extension.refuse("its filter is not known");
+    if (!is_known && layout.filter != "NONE") extension.refuse("its filter \"" + layout.filter + "\" is not known");
     if (is_known && !isAttributes(layout)) extension.refuse("indices must have no filter");
     checkStride(extension, layout);
     if (layout.count > mostElements(layout, compressed))

@@ -1,5 +1,6 @@
 #include "modules/brittle/mesh/gltf/primitive.h"
 
+#include "modules/brittle/mesh/format.h"
 #include "modules/brittle/mesh/gltf/texture_transform.h"
 
 #include <algorithm>
@@ -8,6 +9,8 @@
 
 namespace brittle::gltf {
 namespace {
+
+constexpr const char* kQuantization = "KHR_mesh_quantization";
 
 enum Mode : uint64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
@@ -42,6 +45,21 @@ void checkIndices(const Element& primitive, const std::vector<uint32_t>& indices
     if (beyond != indices.end())
         primitive.refuse("index " + std::to_string(beyond - indices.begin()) + " is " + std::to_string(*beyond) + ", it has " +
                          std::to_string(vertices) + " vertices");
+}
+
+// Component types of an attribute by the specification; without KHR_mesh_quantization positions and normals are floats.
+bool isCoreType(std::string_view name, const AccessorShape& shape) {
+    const bool is_float = largestOf(shape.component_type) == 0;
+    const bool is_unsigned = shape.component_type == 5121 || shape.component_type == 5123;
+    if (name.starts_with("JOINTS_")) return is_unsigned && !shape.is_normalized;
+    if (name.starts_with("TEXCOORD_") || name.starts_with("WEIGHTS_")) return is_float || (is_unsigned && shape.is_normalized);
+    return is_float;
+}
+
+bool namesQuantization(const Document& document) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        if (const Json* names = document.root().list(list); names && std::ranges::count(*names, kQuantization) > 0) return true;
+    return false;
 }
 
 bool hasPositions(const Element& primitive) {
@@ -115,6 +133,7 @@ void PrimitiveReader::readAttributes(const Element& primitive, const DracoMesh* 
     }
     const AttributeSource source = [&](const std::string& name, uint32_t components) { return checked(name, components); };
     geometry.influences = readInfluences(primitive.requiredObject("attributes"), vertices, source);
+    noteInfluences(primitive, geometry.influences);
 }
 
 // Empty if the primitive has none of that name.
@@ -123,24 +142,49 @@ std::vector<double> PrimitiveReader::attribute(const Element& primitive, const D
     const auto accessor = primitive.requiredObject("attributes").integer(name.c_str());
     if (!accessor) return {};
     const std::string user = primitive.where() + ", " + name;
+    const AccessorShape shape = accessors_.shape(*accessor, user);
+    checkType(name, shape, user);
     if (draco) {
         const auto id = primitive.extension(kDraco)->requiredObject("attributes").integer(name.c_str());
-        AccessorShape shape = accessors_.shape(*accessor, user);
         if (id && shape.components != components) refuse(user, "must have " + std::to_string(components) + " components");
         if (id) return draco->numbers(*id, shape);
     }
     return accessors_.numbers(*accessor, components, user);
 }
 
+// Integers that need an extension are read without it, with a note: they have one meaning.
+void PrimitiveReader::checkType(const std::string& name, const AccessorShape& shape, const std::string& user) {
+    constexpr uint64_t kUint32 = 5125;
+    if (shape.component_type == kUint32) refuse(user, "componentType 5125 is for indices alone");
+    if (isCoreType(name, shape) || (!name.starts_with("JOINTS_") && namesQuantization(document_))) return;
+    const std::string type = std::to_string(shape.component_type) + (shape.is_normalized ? ", normalized," : "");
+    const bool is_quantized = !name.starts_with("JOINTS_") && !name.starts_with("WEIGHTS_");
+    notes_.add(user + ": componentType " + type + " is read, yet it is not allowed" +
+               (is_quantized ? std::string(" without ") + kQuantization : ""));
+}
+
+void PrimitiveReader::noteInfluences(const Element& primitive, const Influences& influences) {
+    const auto add = [&](uint64_t count, const char* what) {
+        if (count > 0) notes_.add(primitive.where() + ": " + formatCount(count, "vertex", "vertices") + " " + what);
+    };
+    add(influences.scaled, "with joint weights that do not add up to 1: they are scaled to 1");
+    add(influences.weightless, "without joint weights: the first joint moves them");
+}
+
 void PrimitiveReader::morph(const Element& primitive, const std::vector<double>& weights, PrimitiveGeometry& geometry) {
     const Json* targets = primitive.list("targets");
+    const size_t count = targets ? targets->size() : 0;
+    for (size_t t = count; t < weights.size(); ++t)
+        if (weights[t] != 0) notes_.leaveOut("weight", "weights", "a primitive has fewer morph targets");
     for (size_t t = 0; targets && t < targets->size() && t < weights.size(); ++t) {
         if (weights[t] == 0) continue;
         const Element target((*targets)[t], primitive.where() + ", target " + std::to_string(t));
         const auto add = [&](const char* name, std::vector<double>& values) {
             const auto accessor = target.integer(name);
             if (!accessor || values.empty()) return;
-            const std::vector<double> change = accessors_.numbers(*accessor, 3, target.where() + ", " + name);
+            const std::string user = target.where() + ", " + name;
+            checkType(name, accessors_.shape(*accessor, user), user);
+            const std::vector<double> change = accessors_.numbers(*accessor, 3, user);
             if (change.size() != values.size())
                 target.refuse(std::string(name) + " has another count than that of the primitive");
             for (size_t k = 0; k < values.size(); ++k)

@@ -21,12 +21,14 @@ public:
 
     // nullopt, with a note, for lines, points and primitives without positions.
     std::optional<PrimitiveGeometry> read(const Element& primitive);
-    // Adds the morph targets by their weights; weights beyond the targets are ignored.
+    // Adds the morph targets by their weights; weights beyond the targets are left out with a note.
     void morph(const Element& primitive, const std::vector<double>& weights, PrimitiveGeometry& geometry);
 
 private:
     std::unique_ptr<DracoMesh> decodeDraco(const Element& primitive);
     std::vector<uint32_t> readIndices(const Element& primitive, uint64_t vertices);
+    void checkType(const std::string& name, const AccessorShape& shape, const std::string& user);
+    void noteInfluences(const Element& primitive, const Influences& influences);
     void readAttributes(const Element& primitive, const DracoMesh* draco, PrimitiveGeometry& geometry);
     std::vector<double> attribute(const Element& primitive, const DracoMesh* draco, const std::string& name,
                                   uint32_t components);

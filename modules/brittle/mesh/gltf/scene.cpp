@@ -43,11 +43,37 @@ Double3 tripleOf(const Element& node, const char* key, const Double3& without) {
     return numbers ? Double3{(*numbers)[0], (*numbers)[1], (*numbers)[2]} : without;
 }
 
-Transform localOf(const Element& node) {
-    if (const auto matrix = node.numbers("matrix", 16)) return fromMatrix(node, *matrix);
+Transform composedOf(const Element& node, Notes& notes) {
+    constexpr double kRounding = 1e-3;
     const auto q = node.numbers("rotation", 4);
     const Transform rotation = q ? rotationOf(node, {(*q)[0], (*q)[1], (*q)[2], (*q)[3]}) : Transform();
+    const double squared = q ? (*q)[0] * (*q)[0] + (*q)[1] * (*q)[1] + (*q)[2] * (*q)[2] + (*q)[3] * (*q)[3] : 1;
+    if (std::abs(squared - 1) > kRounding)
+        notes.leaveOut("length of a rotation", "lengths of rotations", "quaternions of nodes must have length 1");
     return compose(tripleOf(node, "translation", {0, 0, 0}), rotation, tripleOf(node, "scale", {1, 1, 1}));
+}
+
+bool isSame(const Transform& a, const Transform& b) {
+    constexpr double kRounding = 1e-5; // of the larger
+    const auto differs = [](const Double3& x, const Double3& y) {
+        return length(x - y) > kRounding * std::max({1.0, length(x), length(y)});
+    };
+    if (differs(a.offset, b.offset)) return false;
+    return !differs(a.rows[0], b.rows[0]) && !differs(a.rows[1], b.rows[1]) && !differs(a.rows[2], b.rows[2]);
+}
+
+// The specification allows a matrix or the three parts, not both. Both are read if they agree.
+Transform localOf(const Element& node, Notes& notes) {
+    const bool has_parts = node.has("translation") || node.has("rotation") || node.has("scale");
+    const auto matrix = node.numbers("matrix", 16);
+    if (!matrix) return composedOf(node, notes);
+    const Transform local = fromMatrix(node, *matrix);
+    if (!has_parts) return local;
+    if (!isSame(local, composedOf(node, notes)))
+        node.refuse("it has a matrix and a translation, rotation or scale that differs from it", "remove one of them");
+    notes.leaveOut("translation, rotation or scale", "translations, rotations or scales",
+                   "the matrix of the node says the same");
+    return local;
 }
 
 // ---- the tree ---------------------------------------------------------------------------------------------------------------
@@ -93,11 +119,11 @@ std::vector<uint64_t> rootsOf(const Tree& tree) {
     return roots;
 }
 
-std::vector<Transform> worldsOf(const Document& document, const Tree& tree) {
+std::vector<Transform> worldsOf(const Document& document, const Tree& tree, Notes& notes) {
     std::vector<Transform> worlds(tree.parents.size());
     std::vector<bool> reached(tree.parents.size(), false);
     walk(tree, rootsOf(tree), [&](uint64_t n) {
-        const Transform local = localOf(document.element("nodes", n, "the file"));
+        const Transform local = localOf(document.element("nodes", n, "the file"), notes);
         worlds[n] = tree.parents[n] == kNone ? local : worlds[tree.parents[n]] * local;
         reached[n] = true;
     });
@@ -141,7 +167,7 @@ std::vector<uint64_t> chooseRoots(const Document& document, const Tree& tree, No
 
 Scene readScene(const Document& document, Notes& notes) {
     const Tree tree = readTree(document);
-    Scene scene{worldsOf(document, tree), {}};
+    Scene scene{worldsOf(document, tree, notes), {}};
     uint64_t all = 0;
     std::vector<bool> is_used(document.size("meshes"), false);
     for (uint64_t n = 0; n < tree.parents.size(); ++n)

@@ -9,6 +9,9 @@ Transform affine(const double* m) { // column by column
     return {{Double3{m[0], m[4], m[8]}, Double3{m[1], m[5], m[9]}, Double3{m[2], m[6], m[10]}}, {m[12], m[13], m[14]}};
 }
 
+// Larger than the rounding of floats, smaller than a step of 8-bit weights.
+constexpr double kWeightRounding = 1e-3;
+
 // A vertex without weights follows its first joint.
 void normalizeWeights(Influences& influences, uint64_t vertices) {
     for (uint64_t v = 0; v < vertices; ++v) {
@@ -17,6 +20,10 @@ void normalizeWeights(Influences& influences, uint64_t vertices) {
         for (size_t k = 0; k < influences.per_vertex; ++k)
             sum += weights[k];
         const bool has_weights = std::isfinite(sum) && sum > 0;
+        if (!has_weights)
+            ++influences.weightless;
+        else if (std::abs(sum - 1) > kWeightRounding)
+            ++influences.scaled;
         for (size_t k = 0; k < influences.per_vertex; ++k)
             weights[k] = has_weights ? weights[k] / sum : (k == 0 ? 1 : 0);
     }
@@ -25,7 +32,8 @@ void normalizeWeights(Influences& influences, uint64_t vertices) {
 // Four more per vertex, behind those of earlier sets.
 void interleave(Influences& influences, uint64_t vertices, const std::vector<double>& joints,
                 const std::vector<double>& weights) {
-    Influences wider{influences.per_vertex + 4, {}, {}};
+    Influences wider;
+    wider.per_vertex = influences.per_vertex + 4;
     wider.joints.reserve(vertices * wider.per_vertex);
     wider.weights.reserve(vertices * wider.per_vertex);
     for (uint64_t v = 0; v < vertices; ++v) {
@@ -72,7 +80,7 @@ Influences readInfluences(const Element& attributes, uint64_t vertices, const At
         if (!has_joints || !has_weights) attributes.refuse(joints_key + " and " + weights_key + " must both be there");
         const std::vector<double> joints = source(joints_key, 4), weights = source(weights_key, 4);
         for (const double joint : joints)
-            if (!(joint >= 0 && joint <= kMostJoints))
+            if (!(joint >= 0 && joint <= kMostJoints && joint == std::floor(joint)))
                 attributes.refuse(joints_key + " must be unsigned integers of 8 or 16 bits");
         interleave(influences, vertices, joints, weights);
     }

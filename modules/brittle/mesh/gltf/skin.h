@@ -16,6 +16,8 @@ struct Influences {
     size_t per_vertex = 0;
     std::vector<uint32_t> joints;
     std::vector<double> weights;
+    uint64_t scaled = 0;     // vertices whose weights did not add up to 1
+    uint64_t weightless = 0; // vertices without any weight: they follow their first joint
     bool isEmpty() const { return per_vertex == 0; }
 };
 

@@ -1,0 +1,25 @@
+// Looks through the text of a COLLADA file for parts that assimp reads wrongly without a word.
+#pragma once
+
+#include "engine/result.h"
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brittle {
+
+struct ColladaText {
+    std::string text;                 // with a unit that is possible
+    std::vector<std::string> notes;   // of an impossible unit, an unknown axis, other scenes
+    std::set<std::string> geometries; // ids of all that the file has
+};
+
+// BadInput, with the line, for:
+//   skewed nodes; matrices that are no affine transforms
+//   polygons with holes; negative indices; primitives without a count
+//   accessors that reach beyond their arrays, or whose params have no names
+engine::Result<ColladaText> checkCollada(std::string_view text);
+
+} // namespace brittle
