@@ -7,8 +7,20 @@
 #include "lib/corner_values.glsl"
 #include "lib/triangle_predicate.glsl"
 
+// Built twice: MAX_SIDES is MOST_SIDES for events in which a polygon has more sides than usual.
 #ifndef MAX_SIDES
 #define MAX_SIDES USUAL_SIDES
+#endif
+// Of a polygon of many sides a lane would take too many turns. There the loop over the corners of a triangle is none, and sides are
+// copied by fours.
+#if MAX_SIDES > USUAL_SIDES
+#define CORNERS 3u
+#define AT_ONCE 4
+const uint kTurnsOfARow = 0u;
+#else
+#define CORNERS ROLLED(3)
+#define AT_ONCE 1
+const uint kTurnsOfARow = 3u;
 #endif
 FLAT_KERNEL;
 UPDATES(0, uint, counts);
@@ -27,19 +39,20 @@ UPDATES(12, uint, triangle_polygons);
 layout(push_constant) uniform Push {
     uint pair_capacity;
     uint table_mask;
+    uint side_stride; // words of pair_sides for each pair, at most MAX_SIDES
 };
 #include "lib/pair_set.glsl"
 
 ivec3 corner[3];
-uint side[MAX_SIDES + 2];
-uint fresh[2 * MAX_SIDES + 2];
+uint side[MAX_SIDES + 2 + AT_ONCE];
+uint fresh[2 * MAX_SIDES + 2 + AT_ONCE];
 
 Row rowOf(uint i, ivec3 qi, uint id) {
     bool edge = id >= EDGE_BASE;
     ivec3 qj = sites[edge ? i : id].xyz;
     uint away = (id - EDGE_BASE + 2u) % 3u; // the barycentric coordinate that is 0 on this edge
     Row r;
-    for (uint c = 0u; c < ROLLED(3); c++) {
+    for (uint c = 0u; c < CORNERS; c++) {
         r.v[c] = edge ? (away == c ? int64_t(1) : int64_t(0)) : cornerValue(qi, qj, corner[c]);
     }
     r.id = id;
@@ -54,6 +67,9 @@ int solidSide(ivec3 qi, ivec3 qj) {
     int64_t nz = int64_t(u.x) * int64_t(w.y) - int64_t(u.y) * int64_t(w.x);
     return wideSign(wideAdd(wideAdd(wideMul(nx, int64_t(d.x)), wideMul(ny, int64_t(d.y))), wideMul(nz, int64_t(d.z))));
 }
+
+// Turns of all loops for a cut through a polygon of `n` sides.
+uint turnsToCut(uint n) { return 1u + kTurnsOfARow + (n + 1u) * (1u + kTurnsOfARow) + (n + 2u) / uint(AT_ONCE) + 1u; }
 
 void main() {
     uint p = flatIndex() + round_bounds[0];
@@ -73,7 +89,7 @@ void main() {
         Row l;
         bool found = false;
         for (; next < last && !found; next++) {
-            budget -= min(budget, 1u);
+            budget -= min(budget, 1u + kTurnsOfARow);
             l = rowOf(i, qi, neighbors[next]);
             found = !nearerTo(l.v[0], i, l.id) || !nearerTo(l.v[1], i, l.id) || !nearerTo(l.v[2], i, l.id);
             if (isZero(l.v[0]) && isZero(l.v[1]) && isZero(l.v[2])) flat_with = l.id;
@@ -81,7 +97,7 @@ void main() {
         // Corner k lies between sides k and k + 1. The corners cut away are one run; l takes the place of the sides between
         // its ends.
         uint count = found ? n : 0u, kept = 0u, exits = 0u;
-        budget -= min(budget, 2u * count + 4u);
+        budget -= min(budget, turnsToCut(count));
         Row before = rowOf(i, qi, side[count > 0u ? n - 1u : 0u]);
         bool start_gone = false, last_gone = false;
         for (uint k = 0u; k <= count && count > 0u; k++) {
@@ -98,21 +114,31 @@ void main() {
         }
         broken = broken || exits > 1u;
         most = max(most, kept);
-        kept = min(kept, uint(MAX_SIDES));
+        kept = min(kept, side_stride);
         n = found ? kept : n;
-        for (uint k = 0u; k < kept; k++) side[k] = fresh[k];
+        for (uint k = 0u; k < kept; k += uint(AT_ONCE)) {
+            side[k] = fresh[k];
+#if AT_ONCE > 1
+            side[k + 1u] = fresh[k + 1u];
+            side[k + 2u] = fresh[k + 2u];
+            side[k + 3u] = fresh[k + 3u];
+#endif
+        }
     }
 
     if (flat_with != NO_INDEX && solidSide(qi, sites[flat_with].xyz) <= 0) flat_with = NO_INDEX;
-    if (most > MAX_SIDES) atomicMax(counts[STATUS_SIDES], most);
-    if (broken || budget == 0u || most > MAX_SIDES) {
-        atomicAdd(counts[broken ? STATUS_BAD_CLIP : STATUS_TOO_LONG], budget == 0u || broken ? 1u : 0u);
+    // Without turns left, or stopped by lavapipe, it may have any number of sides: the event is done again with the other variant, or
+    // refused.
+    if (budget == 0u || (next < last && n > 0u)) most = max(most, MAX_SIDES + 1u);
+    if (most > side_stride) atomicMax(counts[STATUS_SIDES], most);
+    if (broken || most > side_stride) {
+        if (broken) atomicAdd(counts[STATUS_BAD_CLIP], 1u);
         atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
     }
     pair_shape[p] = uvec2(n, flat_with);
     if (n > 0u) atomicAdd(triangle_polygons[m], 1u);
     for (uint k = 0u; k < n; k++) {
-        pair_sides[p * MAX_SIDES + k] = side[k];
+        pair_sides[p * side_stride + k] = side[k];
         if (side[k] < EDGE_BASE) addPair(m, side[k]);
     }
 }

@@ -28,14 +28,15 @@ void main() {
     ivec3 a = grid_vertices[ends.x].xyz, b = grid_vertices[ends.y].xyz;
     uint at = owners[ends.x] & 0x7fffffffu, goal = owners[ends.y] & 0x7fffffffu, n = 0u;
     uint base = kFill != 0u ? crossing_offsets[m] : 0u;
-    uint budget = MOST_TURNS;
-    for (uint step = 0u; step < 16384u && at != goal && budget > 0u; step++) {
-        uint best = NO_INDEX, last = cell_offsets[at + 1u].x;
-        int64_t ja = int64_t(0), jb = int64_t(0);
-        ivec3 q = sites[at].xyz;
-        for (uint k = cell_offsets[at].x; k < last && budget > 0u; k++) {
+    // One loop, in which every lane looks at one neighbor or goes on to the next cell: so its turns are those of the lane that has the
+    // most to do. With a loop in a loop lavapipe would count the longest inner one of every turn.
+    uint k = cell_offsets[at].x, last = cell_offsets[at + 1u].x, best = NO_INDEX, turn = 0u;
+    int64_t ja = int64_t(0), jb = int64_t(0);
+    ivec3 q = sites[at].xyz;
+    bool lost = false;
+    for (; turn < MOST_TURNS && at != goal && !lost; turn++) {
+        if (k < last) {
             uint j = neighbors[k];
-            budget -= min(budget, 1u);
             ivec3 qj = sites[j].xyz;
             int64_t la = cornerValue(q, qj, a), lb = cornerValue(q, qj, b);
             bool earlier = best == NO_INDEX || edgeSign(at, best, j, ja, jb, la, lb) < 0;
@@ -44,13 +45,20 @@ void main() {
                 ja = la;
                 jb = lb;
             }
+            k++;
+        } else if (best == NO_INDEX) {
+            lost = true;
+        } else {
+            if (kFill != 0u) crossings[base + n] = uvec4(at, best, e, 0u);
+            n++;
+            at = best;
+            q = sites[at].xyz;
+            k = cell_offsets[at].x;
+            last = cell_offsets[at + 1u].x;
+            best = NO_INDEX;
         }
-        if (best == NO_INDEX || budget == 0u) break;
-        if (kFill != 0u) crossings[base + n] = uvec4(at, best, e, 0u);
-        n++;
-        at = best;
     }
-    if (budget == 0u || n > MOST_CELLS_OF_AN_EDGE) {
+    if (turn == MOST_TURNS || n > MOST_CELLS_OF_AN_EDGE) {
         atomicAdd(counts[STATUS_TOO_LONG], 1u);
         atomicOr(counts[STATUS_FAILED], FAILED_CLIP);
     } else if (at != goal) {

@@ -150,7 +150,7 @@
 
 // Sides of a clipped polygon; one that outgrows the usual number has the event done again with the larger.
 #define USUAL_SIDES 24
-#define MOST_SIDES 1024
+#define MOST_SIDES 320
 
 // Segments of a cap: up to these a face is one lane's, a small workgroup's, a large one's. What has more is a vast face, on which
 // all workgroups work together. A side of it has five half-edges: its own, and both halves of two diagonals from its corner.

@@ -133,14 +133,46 @@ TEST(LongFractureLimits, ACellWithTwoThousandFaces) {
     expectContract(cube, sitesOver(hard::sphereAroundCenter(2000, .3), cube));
 }
 
-// Many faces of one cell meet in one triangle, whose polygon there has as many sides.
-TEST(FractureLimits, APolygonOfManySides) {
-    const Model cube = modelFrom("builtin:cube");
+// One in the middle, and `count` in a circle around it. Each triangle of the model that the circle crosses has about half as
+// many sides in the middle cell.
+FractureOptions sitesInACircle(int count) {
     FractureOptions options;
     options.given_sites = {{0, 0, 0}};
-    for (int k = 0; k < 200; ++k)
-        options.given_sites.push_back({0.3 * std::cos(0.0314159 * k), 0.3 * std::sin(0.0314159 * k), 0});
-    expectContract(cube, options);
+    for (int k = 0; k < count; ++k) {
+        const double angle = 2 * M_PI * k / count;
+        options.given_sites.push_back({0.3 * std::cos(angle), 0.3 * std::sin(angle), 0});
+    }
+    return options;
+}
+
+TEST(FractureLimits, APolygonOfManySides) {
+    const Model cube = modelFrom("builtin:cube");
+    for (const int count : {100, 300})
+        expectContract(cube, sitesInACircle(count));
+}
+
+// A rod of 100 m x 2 cm: nearly every cell goes all the way through it.
+Model longRod() { return modelFrom(boxOf({0, 0, 0}, {100, 0.02, 0.02})); }
+
+TEST(LongFractureLimits, AnEdgeThatCrossesThousandsOfCells) {
+    FractureOptions options;
+    options.site_count = 14'000;
+    expectContract(longRod(), options);
+}
+
+void expectRefusal(const Model& model, const FractureOptions& options, const std::string& reason) {
+    const auto refused = fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
+    ASSERT_FALSE(refused) << reason;
+    EXPECT_EQ(refused.error().code, engine::ErrorCode::Capacity);
+    EXPECT_NE(refused.error().message.find(reason), std::string::npos) << refused.error().message;
+}
+
+// Both would need more turns of a loop than a lane of Mesa's software device gets before it is ended without a word.
+TEST(FractureLimits, WhatOneLaneCannotWalkThroughIsRefusedByName) {
+    expectRefusal(modelFrom("builtin:cube"), sitesInACircle(700), "more than about 200 sides in one cell");
+    FractureOptions options;
+    options.site_count = 20'000;
+    expectRefusal(longRod(), options, "meet too many cells");
 }
 
 TEST(FractureLimits, TwentyThousandCellsInACube) {

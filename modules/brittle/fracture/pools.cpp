@@ -171,7 +171,7 @@ bool Capacities::grow(const uint32_t* status) {
         more = true;
     }
     if (status[STATUS_SIDES] > sides_per_polygon && sides_per_polygon < MOST_SIDES) {
-        sides_per_polygon = MOST_SIDES;
+        sides_per_polygon = std::min<uint32_t>(std::max(64u, 2 * status[STATUS_SIDES]), MOST_SIDES);
         more = true;
     }
     if (status[STATUS_ROUNDS_LEFT] != 0) {

@@ -106,9 +106,11 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
                              number(STATUS_CROWDED) +
                                  " sites lie too close together for the spread of the others; leave some out"};
     if (s[STATUS_TOO_LONG] != 0)
-        return engine::Error{engine::ErrorCode::Capacity,
-                             number(STATUS_TOO_LONG) +
-                                 " edges or triangles of the model meet too many cells each; divide them, or use fewer sites"};
+        return engine::Error{
+            engine::ErrorCode::Capacity,
+            number(STATUS_TOO_LONG) +
+                " edges or triangles of the model meet too many cells (at most about 6,000 for an edge, 50,000 for "
+                "a triangle); divide them, or use fewer sites"};
     if (s[STATUS_BAD_DIAGRAM] != 0) return failed(number(STATUS_BAD_DIAGRAM) + " edges of cells do not close");
     if (s[STATUS_OPEN_OUTLINES] != 0)
         return failed(number(STATUS_OPEN_OUTLINES) + " cut faces have outlines that do not close");
@@ -120,9 +122,9 @@ engine::Result<void> checkStatus(const std::vector<uint32_t>& s) {
                              number(STATUS_BAD_CAP) +
                                  " cut faces have outlines too long to be triangulated; use more sites or a coarser mesh"};
     if (s[STATUS_SIDES] > MOST_SIDES)
-        return engine::Error{engine::ErrorCode::Capacity, "a triangle has " + number(STATUS_SIDES) +
-                                                              " sides in one cell, at most " + std::to_string(MOST_SIDES) +
-                                                              " can be held; spread the sites"};
+        return engine::Error{
+            engine::ErrorCode::Capacity,
+            "a triangle of the model has more than about 200 sides in one cell; divide it, or spread the sites"};
     if (s[STATUS_BAD_CLIP] != 0) return failed(number(STATUS_BAD_CLIP) + " triangles could not be clipped");
     if (s[STATUS_BAD_LOOKUP] != 0) return failed(number(STATUS_BAD_LOOKUP) + " look-ups in the diagram failed");
     if (s[STATUS_BAD_DEPTH] != 0)

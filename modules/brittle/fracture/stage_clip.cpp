@@ -54,8 +54,12 @@ struct PairPush {
 void recordPairs(const Event& e) {
     const auto& b = e.b;
     const bool wide = e.capacity.sides_per_polygon > USUAL_SIDES;
-    PairPush push = {e.capacity.pairs, static_cast<uint32_t>(b.pair_table.size / 8) - 1};
-    e.record.run("seed_pairs", Length::counted(COUNT_MIXED_TRIANGLES), push,
+    const PairPush seed = {e.capacity.pairs, static_cast<uint32_t>(b.pair_table.size / 8) - 1};
+    const struct {
+        PairPush pairs;
+        uint32_t side_stride;
+    } clip = {seed, e.capacity.sides_per_polygon};
+    e.record.run("seed_pairs", Length::counted(COUNT_MIXED_TRIANGLES), seed,
                  {e.record.counts(), b.mixed_triangles, b.mesh_triangles, b.triangle_edges, b.owners, b.edge_slot,
                   b.crossing_offsets, b.crossings, b.pairs, b.pair_table});
     for (uint32_t round = 0; round <= e.capacity.clip_rounds; round++) {
@@ -64,7 +68,7 @@ void recordPairs(const Event& e) {
         } next = {e.capacity.pairs, round == e.capacity.clip_rounds ? 1u : 0u};
         e.record.runGroups("next_round", 1, next, {e.record.counts(), e.record.args(), b.round_bounds});
         if (next.is_last != 0) break;
-        e.record.run(wide ? "clip_triangles_wide" : "clip_triangles", Length::counted(COUNT_ROUND), push,
+        e.record.run(wide ? "clip_triangles_wide" : "clip_triangles", Length::counted(COUNT_ROUND), clip,
                      {e.record.counts(), b.sites, b.cell_offsets, b.neighbors, b.grid_vertices, b.mesh_triangles,
                       b.mixed_triangles, b.round_bounds, b.pairs, b.pair_table, b.pair_sides, b.pair_shape,
                       b.triangle_polygons});
