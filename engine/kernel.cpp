@@ -96,8 +96,12 @@ Result<const Kernel*> KernelLibrary::get(std::string_view name, std::span<const 
         if (!made) return made.error();
         const std::lock_guard lock(mutex_);
         const bool replaced_meanwhile = latestCode(name).words.data() != code->words.data();
-        const auto place = replaced_meanwhile ? kernels_.find(key) : kernels_.try_emplace(key, std::move(*made)).first;
-        if (place != kernels_.end()) return place->second.get();
+        if (!replaced_meanwhile) {
+            const auto [place, is_new] = kernels_.try_emplace(key, std::move(*made));
+            if (is_new) order_.push_back(&place->first);
+            return place->second.get();
+        }
+        if (const auto place = kernels_.find(key); place != kernels_.end()) return place->second.get();
     }
 }
 
@@ -146,6 +150,14 @@ std::vector<std::string> KernelLibrary::kernelNames() const {
     for (const auto& [key, kernel] : kernels_)
         if (names.empty() || names.back() != key.first) names.push_back(key.first);
     return names;
+}
+
+std::vector<KernelRequest> KernelLibrary::requests() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<KernelRequest> requests;
+    for (const Key* key : order_)
+        requests.push_back({key->first, key->second});
+    return requests;
 }
 
 double KernelLibrary::creationMs() const {

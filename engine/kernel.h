@@ -78,6 +78,8 @@ public:
     const std::vector<SpecConstant>& common() const { return common_; }
     uint32_t kernelCount() const;
     std::vector<std::string> kernelNames() const; // of those made so far, in order, each once
+    // All made so far, the first first, in each specialization. Names stay valid as long as the library.
+    std::vector<KernelRequest> requests() const;
     double creationMs() const; // in the driver, added up over all pipelines made here, also those made at the same time
 
 private:
@@ -102,6 +104,7 @@ private:
     std::vector<SpecConstant> common_;
     mutable std::mutex mutex_;
     std::map<Key, std::unique_ptr<Kernel>> kernels_;
+    std::vector<const Key*> order_;                            // of those, the first first
     std::map<std::string, KernelWords, std::less<>> replaced_; // words in place of those of `modules_`
     double creation_ms_ = 0;
 };

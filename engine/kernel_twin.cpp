@@ -24,8 +24,8 @@ Result<std::unique_ptr<KernelTwin>> KernelTwin::create(const Device& of) {
 }
 
 // Dispatches no workgroup at all: the driver compiles before it looks at their number.
-void KernelTwin::compile(KernelLibrary& library, std::string_view name) {
-    const auto kernel = library.get(name);
+void KernelTwin::compile(KernelLibrary& library, std::string_view name, std::span<const uint32_t> spec) {
+    const auto kernel = library.get(name, spec);
     if (!kernel) return;
     Commands commands(*device_);
     if (!commands.begin()) return;

@@ -22,7 +22,7 @@ public:
 
     Device& device() { return *device_; } // to make libraries on
     // One of such a library, in this specialization. Failures are left for those who ask for the kernel in earnest.
-    void compile(KernelLibrary& library, std::string_view name);
+    void compile(KernelLibrary& library, std::string_view name, std::span<const uint32_t> spec = {});
 
 private:
     KernelTwin(std::unique_ptr<Device> device, Buffer buffer) : device_(std::move(device)), buffer_(std::move(buffer)) {}

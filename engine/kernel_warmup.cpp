@@ -3,6 +3,10 @@
 #include "engine/device.h"
 #include "engine/kernel_twin.h"
 
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+
 namespace engine {
 namespace {
 
@@ -50,6 +54,45 @@ KernelWarmup::KernelWarmup(Device& device, KernelLibrary& library, std::vector<s
 
 void KernelWarmup::finish() {
     if (thread_.joinable()) thread_.join();
+}
+
+LateWarmup::LateWarmup(const Device& device, const KernelLibrary& library, std::chrono::milliseconds patience)
+    : device_(device), library_(library) {
+    if (!KernelTwin::helps(device)) return;
+    requests_ = library.requests();
+    constexpr unsigned kMostThreads = 4; // beside the driver's own
+    const unsigned cores = std::min(std::max(1u, std::thread::hardware_concurrency()), kMostThreads + 1);
+    for (unsigned k = 1; k < cores; ++k)
+        threads_.emplace_back([this, patience](const std::stop_token& stop) { quietly([&] { work(stop, patience); }); });
+}
+
+void LateWarmup::stop() {
+    for (std::jthread& thread : threads_)
+        thread.request_stop();
+}
+
+void LateWarmup::finish() {
+    for (std::jthread& thread : threads_)
+        thread.join();
+    threads_.clear();
+}
+
+void LateWarmup::work(const std::stop_token& stop, std::chrono::milliseconds patience) {
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock(mutex);
+    never.wait_for(lock, stop, patience, [] { return false; });
+    if (!stop.stop_requested()) compileNextOnes(stop);
+}
+
+void LateWarmup::compileNextOnes(const std::stop_token& stop) {
+    const auto twin = KernelTwin::create(device_);
+    if (!twin) return;
+    KernelLibrary library((*twin)->device(), library_.modules(), library_.common());
+    for (size_t k = taken_++; k < requests_.size() && !stop.stop_requested(); k = taken_++) {
+        const KernelRequest& request = requests_[requests_.size() - 1 - k];
+        (*twin)->compile(library, request.name, request.spec);
+    }
 }
 
 } // namespace engine

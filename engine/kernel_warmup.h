@@ -8,6 +8,8 @@
 
 #include "engine/kernel.h"
 
+#include <atomic>
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -27,6 +29,29 @@ public:
 
 private:
     std::jthread thread_;
+};
+
+// The same for recordings that are about to run for the first time. If they have not run after `patience`, a CPU's driver is at
+// its first compilation, and other cores compile the library's kernels on twins, the last first, until stop(). On GPUs it does
+// nothing.
+class LateWarmup {
+public:
+    // The library and its device outlive it.
+    LateWarmup(const Device& device, const KernelLibrary& library, std::chrono::milliseconds patience);
+    // Returns at once. Kernels that are being compiled are finished, and the destructor waits for them.
+    void stop();
+    // Waits until all are compiled.
+    void finish();
+
+private:
+    const Device& device_;
+    const KernelLibrary& library_;
+    std::vector<KernelRequest> requests_;
+    std::atomic<size_t> taken_ = 0;
+    std::vector<std::jthread> threads_;
+
+    void work(const std::stop_token& stop, std::chrono::milliseconds patience);
+    void compileNextOnes(const std::stop_token& stop);
 };
 
 } // namespace engine

@@ -35,7 +35,7 @@ shown "breaking a ring into out/demo.glb and out/demo.png" shatter builtin:ring 
 shown "breaking a window pane into out/window_pane.png" simulate "$scene" -o out/window_pane.png --seconds 0.35
 shown "simulating two seconds of a window pane into out/window_pane.glb" simulate "$scene" -o out/window_pane.glb --seconds 2
 if command -v ffmpeg >/dev/null; then
-  shown "filming them into out/window_pane.mp4" simulate "$scene" -o out/window_pane.mp4 --seconds 2
+  shown "filming them into out/window_pane.mp4" simulate "$scene" -o out/window_pane.mp4 --seconds 2 --fps 30
 else
   echo "demo: no film, since there is no program ffmpeg"
 fi

@@ -1,8 +1,13 @@
+#include "engine/kernel_twin.h"
 #include "engine/kernel_warmup.h"
 #include "tests/engine/test_device.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 using namespace engine;
 using namespace engine_test;
@@ -245,6 +250,35 @@ TEST(KernelWarmup, LeavesKernelsAsUsableAsWithoutIt) {
     commands.dispatch(**increment, 1, NoPush{}, {words});
     finish(commands);
     EXPECT_EQ(wordsOf(words)[0], 42u);
+}
+
+// In a cache of its own, in which the library's kernels then are.
+TEST(LateWarmup, CompilesOnATwinWhatALibraryHasAskedFor) {
+    if (!KernelTwin::helps(device())) GTEST_SKIP() << "this device compiles when pipelines are made";
+    KernelLibrary library(device(), shaders::engineTestKernels());
+    ASSERT_TRUE(library.get("increment") && library.get("add_index", {7u}));
+    const auto folder = std::filesystem::temp_directory_path() / ("brittle_late_warmup_" + std::to_string(getpid()));
+    const char* before = std::getenv("MESA_SHADER_CACHE_DIR");
+    const std::string usual = before != nullptr ? before : "";
+    ASSERT_EQ(setenv("MESA_SHADER_CACHE_DIR", folder.c_str(), 1), 0);
+    LateWarmup(device(), library, std::chrono::milliseconds(0)).finish();
+    before != nullptr ? setenv("MESA_SHADER_CACHE_DIR", usual.c_str(), 1) : unsetenv("MESA_SHADER_CACHE_DIR");
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        files += entry.is_regular_file() ? 1 : 0;
+    EXPECT_GT(files, 0u);
+    std::filesystem::remove_all(folder);
+}
+
+TEST(LateWarmup, ThatIsStoppedInTimeBeginsNothing) {
+    KernelLibrary library(device(), shaders::engineTestKernels());
+    ASSERT_TRUE(library.get("increment"));
+    const auto start = std::chrono::steady_clock::now();
+    {
+        LateWarmup warmup(device(), library, std::chrono::hours(1));
+        warmup.stop();
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(1));
 }
 
 TEST(KernelWarmup, EndsWhenItIsNoLongerWanted) {

@@ -1,12 +1,14 @@
 // The world behind World: what it holds on the device, and what it has been told of it.
 #pragma once
 
+#include "engine/kernel_warmup.h"
 #include "modules/brittle/breaking/breaking.h"
 #include "modules/brittle/dynamics/body_order.h"
 #include "modules/brittle/dynamics/world.h"
 #include "modules/brittle/dynamics/world_state.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace brittle {
@@ -129,6 +131,7 @@ private:
     FragmentList fragments_;
     std::unique_ptr<Drawing> drawing_; // once somebody draws
     uint32_t drawings_ = 0;
+    std::optional<engine::LateWarmup> warmup_; // while the first step runs
 };
 
 } // namespace brittle

@@ -122,10 +122,15 @@ bool DeviceWorld::bounce() const {
 Result<void> DeviceWorld::submit(uint64_t step) {
     const uint32_t parity = step & 1;
     if (const auto blows = strikes_.find(step); blows != strikes_.end()) return submitOnce(parity, blows->second);
+    constexpr std::chrono::milliseconds kPatience(700); // in which a driver has read from its cache what a step takes
+    const bool is_first = !submitted_[0] && !submitted_[1];
+    if (is_first) warmup_.emplace(device_, kernels_, kPatience);
     engine::Commands& commands = *commands_[parity];
     if (auto submitted = submitted_[parity] ? commands.submitAgain() : commands.submit(); !submitted) return submitted;
     submitted_[parity] = true;
-    return commands.wait();
+    auto waited = commands.wait();
+    if (is_first) warmup_->stop();
+    return waited;
 }
 
 Result<void> DeviceWorld::submitOnce(uint32_t parity, const HandBlows& by_hand) {
