@@ -46,7 +46,8 @@ void BodyCast::add(const brittle::BodyFragment& fragment, brittle::SurfaceMesh s
     const std::string name = fragmentName(surfaces_.bodies[fragment.origin].name, fragment.step, fragment.slot);
     looks_[{fragment.slot, fragment.step}] = surfaces_.bodies.size();
     surfaces_.meshes.push_back(std::move(surface));
-    surfaces_.bodies.push_back({mesh, name, true, false, fragment.origin});
+    const std::string material = surfaces_.bodies[fragment.origin].material;
+    surfaces_.bodies.push_back({mesh, name, true, false, fragment.origin, material});
 }
 
 } // namespace cli

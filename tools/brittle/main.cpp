@@ -7,7 +7,9 @@
 #include "tools/brittle/unknown_word.h"
 
 #include <cstdio>
+#include <fcntl.h>
 #include <span>
+#include <unistd.h>
 
 namespace {
 
@@ -33,9 +35,17 @@ int badUsage(const CLI::App& app, const CLI::ParseError& error, std::span<const 
     return cli::fail({engine::ErrorCode::BadInput, message});
 }
 
+// Where standard streams are closed, the first files that are opened would take their numbers, and what is printed would go
+// there. Opened the wrong way round, they fail as closed ones do.
+void occupyClosedStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    occupyClosedStreams();
     cli::spreadDriverThreads();
     cli::cleanUpWhenInterrupted();
     CLI::App app{"Shatters closed meshes into closed fragments, on the GPU.", "brittle"};
@@ -48,7 +58,8 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return error.get_exit_code() == 0 ? app.exit(error) : badUsage(app, error, {argv + 1, argv + argc});
+        if (error.get_exit_code() != 0) return badUsage(app, error, {argv + 1, argv + argc});
+        app.exit(error); // prints help or the version
     } catch (const std::exception& error) {
         return cli::fail({engine::ErrorCode::Internal, error.what()});
     }

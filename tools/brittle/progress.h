@@ -1,4 +1,4 @@
-// One line on the terminal that says what is going on. Silent where stderr is no terminal.
+// Says what is going on: on a terminal in one line that is rewritten, else in a line every ten seconds.
 #pragma once
 
 #include <string>

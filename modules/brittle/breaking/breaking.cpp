@@ -9,6 +9,7 @@
 #include "modules/brittle/dynamics/event_ring.h"
 #include "modules/brittle/fracture/fetch.h"
 #include "modules/brittle/fracture/upload.h"
+#include "shaders-spirv/shared/fragment_record.h"
 
 #include <algorithm>
 #include <optional>
@@ -264,6 +265,7 @@ private:
 
     // Planned by taking all from arenas that are too small.
     Result<void> makeBuffers(const WorldContents& contents) {
+        if (auto fits = canBind(uint64_t{event_.capacity.fragments} * sizeof(FragmentRecord), contents); !fits) return fits;
         auto scene = SceneBuffers::create(device_, event_.capacity.emitted, event_.capacity.fragments);
         if (!scene) return scene.error();
         scene_ = std::move(*scene);
@@ -319,10 +321,12 @@ private:
         const uint64_t most = device_.limits().maxStorageBufferRange;
         if (bytes <= most) return {};
         return Error{ErrorCode::Capacity,
-                     "what breaks needs a list of " + std::to_string(bytes) + " bytes, the device can bind " +
-                         std::to_string(most) + "; the largest body that breaks has " +
-                         std::to_string(largestSurface(contents)) +
-                         " triangles: simplify it, or lower the budgets of fragments and of what breaks in a step"};
+                     "what breaks in a step needs a list of " + std::to_string(bytes) + " bytes, the device can bind " +
+                         std::to_string(most) + "; the budgets are " + std::to_string(room_.step_triangles) +
+                         " triangles and " + std::to_string(room_.step_sites) + " sites of all that breaks in a step, and " +
+                         std::to_string(room_.surfaces.capacity) +
+                         " triangles of all surfaces; the largest body that breaks has " +
+                         std::to_string(largestSurface(contents)) + " triangles: lower the budgets, or simplify the body"};
     }
 
     Result<void> fill(const WorldContents& contents) {

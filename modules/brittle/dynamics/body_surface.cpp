@@ -111,7 +111,7 @@ SurfaceMesh squareSurface(double edge) {
 
 void SurfaceCollector::add(const BodyDefinition& body, SurfaceMesh surface, bool is_plane) {
     turnIntoAxes(surface, axesOf(body));
-    surfaces_.bodies.push_back({indexOf(std::move(surface)), body.name, body.mass > 0, is_plane});
+    surfaces_.bodies.push_back({indexOf(std::move(surface)), body.name, body.mass > 0, is_plane, {}, body.material});
 }
 
 uint32_t SurfaceCollector::indexOf(SurfaceMesh surface) {

@@ -26,6 +26,7 @@ struct BodyLook {
     bool moves = false;
     bool is_plane = false;               // its mesh is a square, of which only the middle is meant: a plane has no end
     std::optional<uint32_t> origin = {}; // of a fragment the first body that it was a part of, of these
+    std::string material = {};           // by name; empty if the body has none
 };
 
 struct WorldSurfaces {

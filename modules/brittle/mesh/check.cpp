@@ -183,7 +183,9 @@ void Inspector::checkNesting(const TriangleTree& tree, const Components& compone
         if (report_.misplaced_components++ == 0) first = midpointOf(components.all[c].largest_triangle);
     }
     complain(report_.misplaced_components, "part", first,
-             "inside another part or inside out; unite the parts, or turn the walls of hollows inward");
+             "in another part, wholly or partly, or inside out; unite the parts (boolean union), move them apart, or turn the "
+             "walls of "
+             "hollows inward");
 }
 
 } // namespace

@@ -21,7 +21,8 @@ std::string lowerCase(std::string ending) {
 
 engine::Result<uintmax_t> fileSize(const std::filesystem::path& path) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) return badInput("no such file");
+    if (!std::filesystem::exists(path, error))
+        return badInput(error ? "cannot be reached: " + error.message() : "no such file");
     if (!std::filesystem::is_regular_file(path, error)) return badInput("not a file");
     const uintmax_t size = std::filesystem::file_size(path, error);
     if (error) return badInput("cannot be opened: " + error.message());

@@ -242,7 +242,10 @@ engine::Result<SceneDescription> readScene(const std::filesystem::path& path) {
         return engine::Error{engine::ErrorCode::BadInput, path.string() + ": " + why};
     };
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return refuse("no such file");
+    if (!std::filesystem::is_regular_file(path, error)) {
+        const bool is_missing = !error || error == std::errc::no_such_file_or_directory;
+        return refuse(is_missing ? "no such file" : "cannot be reached: " + error.message());
+    }
     if (std::filesystem::file_size(path, error) > kMaxSceneBytes || error) return refuse("too large for a scene");
     if (std::filesystem::file_size(path, error) == 0) return refuse("the file is empty; a scene has at least one body");
     std::ifstream file(path, std::ios::binary);
