@@ -203,10 +203,81 @@ const std::string kPolylist = "<polylist count=\"6\">", kNode = "<node id=\"n\">
 
 std::string daeWith(const std::string& from, const std::string& to) { return withReplaced(collada("", kSize), from, to); }
 
+// The largest coordinates of a model.
+Double3 highestCorner(const std::string& dae) {
+    const auto mesh = importMesh(dae, ".dae");
+    EXPECT_TRUE(mesh) << mesh.error().message;
+    if (!mesh) return {0, 0, 0};
+    Double3 highest = mesh->positions.front();
+    for (const Double3& position : mesh->positions)
+        for (size_t axis = 0; axis < 3; ++axis)
+            highest[axis] = std::max(highest[axis], position[axis]);
+    return highest;
+}
+
 TEST(Collada, SkewedNodesAreRefusedWithTheLine) {
     EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n\n<skew sid=\"s\">45 0 1 0 1 0 0</skew>"), ".dae"),
               "line 3: <skew> is not read; apply the transforms of the nodes before export");
     EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "<!-- <skew> --><![CDATA[<skew>]]>"), ".dae"), "");
+}
+
+// The corners of the box of 1, 2 and 3 after it is turned about a diagonal by 120 degrees.
+TEST(Collada, AxesOfRotationsMayHaveAnyLength) {
+    for (const char* rotation : {"1 1 1 120", "\n0.57735 0.57735 0.57735 120 ", "1e30 1e30 1e30 120", "1,5 1,5 1,5 120"})
+        EXPECT_LT(length(highestCorner(daeWith(kNode, kNode + "<rotate>" + rotation + "</rotate>")) - Double3{3, 1, 2}), 1e-5)
+            << rotation;
+    for (const char* rotation : {"0 0 2 0", "0 0 0 0", "0 0 -0.1 360"})
+        EXPECT_LT(length(highestCorner(daeWith(kNode, kNode + "<rotate>" + rotation + "</rotate>")) - kSize), 1e-5) << rotation;
+}
+
+TEST(Collada, RotationsWithoutADirectionAreRefusedWithTheLine) {
+    for (const char* axis : {"0 0 0", "nan 0 1", "inf 0 0"})
+        EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n<rotate>" + axis + " 90</rotate>"), ".dae"),
+                  "line 2: the axis of a <rotate> has no direction; give it an axis other than 0 0 0, or remove it")
+            << axis;
+}
+
+TEST(Collada, TriangleFansAreRefusedWithTheLine) {
+    const std::string fan =
+        "\n<trifans count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 2 3 1</p></trifans>";
+    EXPECT_EQ(refusalOf(daeWith("</polylist>", "</polylist>" + fan), ".dae"),
+              "line 2: triangle fans (<trifans>) are not read; export triangles");
+}
+
+TEST(Collada, UpAxesAreReadBesideBlanksAndComments) {
+    for (const char* axis : {"Z_UP ", "\n  Z_UP\n", "<!-- up -->Z_UP", "Z_UP<!-- <up_axis>Y_UP</up_axis> -->"}) {
+        const std::string file = collada(std::string("<up_axis>") + axis + "</up_axis>", kSize);
+        EXPECT_EQ(notesOf(file, ".dae"), Notes{"z up: turned so that y is up"}) << axis;
+        EXPECT_NEAR(highestCorner(file)[1], 3, 1e-6) << axis;
+    }
+}
+
+TEST(Collada, CommentsAmongNumbersAreSkipped) {
+    EXPECT_EQ(highestCorner(daeWith(kNode, kNode + "<translate>1<!-- x --> 2 <!-- y\n -->3</translate>")), (Double3{2, 4, 6}));
+    EXPECT_NEAR(volumeOf(daeWith("<p>0 2 3 1", "<p><!-- a -->0 2 <!-- b --> 3 1"), ".dae"), 6, 1e-6);
+    EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "<!-- \n\n --><skew>45 0 1 0 1 0 0</skew>"), ".dae").substr(0, 7), "line 3:");
+    EXPECT_NE(refusalOf(daeWith(kNode, kNode + "<!-- without an end"), ".dae"), "");
+}
+
+std::string skin(const std::string& matrix) {
+    return "<library_controllers><controller id=\"c\"><skin source=\"#g\"><bind_shape_matrix>" + matrix +
+           "</bind_shape_matrix></skin></controller></library_controllers><library_visual_scenes>";
+}
+
+TEST(Collada, MatricesOfSkinsAreNoted) {
+    const auto notes = [](const std::string& matrix) {
+        return notesOf(daeWith("<library_visual_scenes>", skin(matrix)), ".dae");
+    };
+    EXPECT_EQ(notes("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), Notes{});
+    EXPECT_EQ(notes("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), Notes{"1 bind_shape_matrix of a controller is left out: \"c\""});
+}
+
+TEST(Collada, MorphsAreRefusedWithTheLine) {
+    const std::string morph =
+        "<library_controllers><controller id=\"c\">\n<morph source=\"#g\" method=\"NORMALIZED\"/></controller>"
+        "</library_controllers><library_visual_scenes>";
+    EXPECT_EQ(refusalOf(daeWith("<library_visual_scenes>", morph), ".dae"),
+              "line 2: <morph> controllers are not read; apply the shapes to the mesh before export");
 }
 
 TEST(Collada, PolygonsWithHolesAreRefusedWithTheLine) {

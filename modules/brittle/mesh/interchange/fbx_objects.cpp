@@ -60,14 +60,6 @@ std::set<std::string> connected(const Objects& objects) {
 // Shapes are targets of morphs; lines have no surface and are noted when they are flattened.
 bool isMissed(const std::string& kind) { return kind != "Mesh" && kind != "Shape" && kind != "Line"; }
 
-std::string listed(const std::vector<std::string>& names) {
-    constexpr size_t kMost = 3;
-    std::string list;
-    for (size_t k = 0; k < names.size() && k < kMost; ++k)
-        list += (k > 0 ? ", " : "") + names[k];
-    return names.size() > kMost ? list + ", ..." : list;
-}
-
 } // namespace
 
 std::vector<std::string> noteLostGeometries(std::string_view fbx) {
@@ -81,7 +73,7 @@ std::vector<std::string> noteLostGeometries(std::string_view fbx) {
     }
     std::vector<std::string> notes;
     const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
-        if (!names.empty()) notes.push_back(formatCount(names.size(), one, many) + " left out: " + listed(names));
+        if (!names.empty()) notes.push_back(formatCount(names.size(), one, many) + " left out: " + formatList(names));
     };
     add(apart, "mesh that no connection leads to the scene is", "meshes that no connection leads to the scene are");
     add(others, "geometry that is no mesh is", "geometries that are no meshes are");
