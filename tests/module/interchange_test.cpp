@@ -115,6 +115,62 @@ TEST(FbxObjects, CommentsAndTextsAreNoRecords) {
     EXPECT_EQ(noteLostGeometries(text), Notes{"1 mesh that no connection leads to the scene is left out: \"yes\""});
 }
 
+// A box in a scaled node, and a tetrahedron in a node with properties below that.
+std::string fbxWithChild(const std::string& properties, const std::string& parent_scale = "1,2,1") {
+    const std::string child = withReplaced(model(201), "Shading: T", "Properties70: {\n" + properties + "}\nShading: T");
+    const std::string file = fbxWith(geometry(101, "extra") + child, "C: \"OO\",101,201\nC: \"OO\",201,200\n");
+    return withReplaced(file, "\"A\",1.000000,1.000000,1.000000", "\"A\"," + parent_scale);
+}
+
+std::string turn(const std::string& key, const std::string& degrees) {
+    return "P: \"" + key + "\", \"Vector3D\", \"Vector\", \"\"," + degrees + "\n";
+}
+std::string inherit(int type) { return "P: \"InheritType\", \"enum\", \"\", \"\"," + std::to_string(type) + "\n"; }
+
+TEST(FbxNodes, WhoseScaleIsInheritedOtherwiseAreNamed) {
+    const Notes note = {"the scale is inherited as by InheritType 1 (RSrs) although the file has another, at 1 node: \"m\""};
+    const std::string quarter = turn("Lcl Rotation", "0,0,90");
+    for (const int type : {0, 2})
+        EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(type)), ".fbx"), note) << type;
+    EXPECT_EQ(notesOf(fbxWithChild(turn("PreRotation", "45,0,0") + inherit(0)), ".fbx"), note);
+    EXPECT_EQ(notesOf(fbxWithChild(turn("Lcl Rotation", "10,20,30") + inherit(0)), ".fbx"), note);
+    EXPECT_EQ(notesOf(fbxWithChild(inherit(2), "100,100,100"), ".fbx"), note);
+}
+
+TEST(FbxNodes, WhoseShapeIsTheSameByEachTypeOfInheritanceAreNotNamed) {
+    const std::string quarter = turn("Lcl Rotation", "0,0,90");
+    EXPECT_EQ(notesOf(fbxWithChild(quarter), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(1)), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(0), "100,100,100"), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(2), "1,1,1"), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(turn("Lcl Rotation", "0,37,-180") + inherit(0)), ".fbx"), Notes{});
+}
+
+TEST(FbxNodes, WithoutMeshesAreNotNamed) {
+    const std::string odd = turn("Lcl Rotation", "0,0,90") + inherit(0);
+    const std::string file = withReplaced(fbxWithChild(odd), "C: \"OO\",101,201\n", "C: \"OO\",101,200\n");
+    EXPECT_EQ(notesOf(file, ".fbx"), Notes{});
+}
+
+TEST(FbxNodes, ThatAreTurnedWithoutAnActiveRotationAreNamed) {
+    const std::string inactive = "P: \"RotationActive\", \"bool\", \"\", \"\",0\n";
+    for (const char* key : {"PreRotation", "PostRotation"})
+        EXPECT_EQ(notesOf(fbxWithChild(turn(key, "-90,0,0") + inactive), ".fbx"),
+                  Notes{"PreRotation and PostRotation are applied although RotationActive is 0, at 1 node: \"m\""});
+    EXPECT_EQ(notesOf(fbxWithChild(turn("PreRotation", "0,0,0") + inactive), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(turn("PreRotation", "-90,0,0")), ".fbx"), Notes{});
+}
+
+TEST(FbxObjects, BlendShapesWithAWeightAreNamed) {
+    const auto shape = [](const std::string& content) {
+        return fbxWith("Deformer: 301, \"SubDeformer::smile\", \"BlendShapeChannel\" {\nVersion: 100\n" + content + "}\n", "");
+    };
+    const Notes note = {"1 blend shape with a DeformPercent other than 0 is left out: \"smile\""};
+    EXPECT_EQ(notesOf(shape("DeformPercent: 0.5\n"), ".fbx"), note);
+    EXPECT_EQ(notesOf(shape("Properties70: {\nP: \"DeformPercent\", \"Number\", \"\", \"A\",100\n}\n"), ".fbx"), note);
+    EXPECT_EQ(notesOf(shape("DeformPercent: 0\nFullWeights: *1 {\na: 100\n}\n"), ".fbx"), Notes{});
+}
+
 // ---- binary FBX -------------------------------------------------------------------------------------------------------------
 
 template <class T>
@@ -123,6 +179,7 @@ std::string bytesOf(T value) {
 }
 
 std::string integer(int64_t value) { return "L" + bytesOf(value); }
+std::string real(double value) { return "D" + bytesOf(value); }
 std::string text(const std::string& value) { return "S" + bytesOf(static_cast<uint32_t>(value.size())) + value; }
 
 // Writes records as of version 7.4 with 32-bit offsets, or as of 7.5 with 64 bits.
@@ -166,7 +223,14 @@ std::string binaryFbx(bool is_wide) {
         fbx.add("Geometry", {integer(1LL << 40), name("used"), text("Mesh")}, [&] { fbx.add("Vertices", {array}); });
         fbx.add("Geometry", {integer(2), name("lost"), text("Mesh")}, [&] { fbx.add("Vertices", {array}); });
         fbx.add("Geometry", {integer(3), name("wire"), text("NurbsCurve")});
-        fbx.add("Model", {integer(4), name("node"), text("Mesh")});
+        fbx.add("Model", {integer(4), name("node"), text("Mesh")}, [&] {
+            fbx.add("Properties70", {}, [&] {
+                fbx.add("P", {text("RotationActive"), text("bool"), text(""), text(""), "I" + bytesOf(int32_t{0})});
+                fbx.add("P", {text("PreRotation"), text("Vector3D"), text(""), text("A"), real(0), real(-45), real(0)});
+            });
+        });
+        fbx.add("Deformer", {integer(5), name("smile"), text("BlendShapeChannel")},
+                [&] { fbx.add("DeformPercent", {real(1e-9)}); });
     });
     fbx.add("Connections", {}, [&] {
         fbx.add("C", {text("OO"), integer(4), integer(0)});
@@ -179,7 +243,9 @@ std::string binaryFbx(bool is_wide) {
 TEST(FbxObjects, BinaryFilesAreLookedThrough) {
     for (const bool is_wide : {false, true})
         EXPECT_EQ(noteLostGeometries(binaryFbx(is_wide)),
-                  (Notes{"1 mesh that no connection leads to the scene is left out: \"lost\"",
+                  (Notes{"PreRotation and PostRotation are applied although RotationActive is 0, at 1 node: \"node\"",
+                         "1 blend shape with a DeformPercent other than 0 is left out: \"smile\"",
+                         "1 mesh that no connection leads to the scene is left out: \"lost\"",
                          "1 geometry that is no mesh is left out: \"wire\" (NurbsCurve)"}));
 }
 
