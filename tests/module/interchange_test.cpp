@@ -303,6 +303,15 @@ TEST(Collada, RotationsWithoutADirectionAreRefusedWithTheLine) {
             << axis;
 }
 
+TEST(Collada, NodesThatAScaleOfZeroMakesFlatAreLeftOut) {
+    const std::string note = "1 node that a scale of 0 makes flat is left out: ";
+    EXPECT_EQ(refusalOf(daeWith(kNode, "<node id=\"m\"><scale>1 0 1</scale><rotate>1 1 1 50</rotate>"), ".dae"),
+              "no triangles in it (" + note + "\"m\"); export the model with its meshes");
+    const std::string flat =
+        "<node id=\"m\"><scale>0 0 0</scale><node id=\"k\"><instance_geometry url=\"#g\"/></node></node>";
+    EXPECT_EQ(notesOf(daeWith(kNode, flat + kNode), ".dae"), Notes{note + "\"k\""});
+}
+
 TEST(Collada, TriangleFansAreRefusedWithTheLine) {
     const std::string fan =
         "\n<trifans count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 2 3 1</p></trifans>";
