@@ -39,6 +39,12 @@ public:
     engine::Result<ImportedMesh> run(const aiScene& scene, const Transform& root);
 
 private:
+    struct Visit {
+        const aiNode* node;
+        Transform transform;
+        bool is_flat; // by a scale of 0, of the node or above it
+    };
+    engine::Result<void> addMeshes(const aiScene& scene, const aiNode& node, const Transform& transform);
     const char* addMesh(const aiMesh& mesh, const Transform& transform);
     PolygonCorner corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const;
 
@@ -51,21 +57,13 @@ private:
 };
 
 engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Transform& root) {
-    struct Visit {
-        const aiNode* node;
-        Transform transform;
-        bool is_flat; // by a scale of 0, of the node or above it
-    };
     std::vector<Visit> waiting = {{scene.mRootNode, root, false}};
     while (!waiting.empty()) {
         const auto [node, transform, is_flat] = waiting.back();
         waiting.pop_back();
         if (is_flat && node->mNumMeshes > 0) flat_nodes_.push_back('"' + std::string(node->mName.C_Str()) + '"');
-        for (unsigned m = 0; m < node->mNumMeshes && !is_flat; ++m) {
-            if (node->mMeshes[m] >= scene.mNumMeshes) return badInput("a node refers to a mesh that is not there");
-            if (const char* wrong = addMesh(*scene.mMeshes[node->mMeshes[m]], transform))
-                return badInput("mesh " + std::to_string(node->mMeshes[m]) + ": " + wrong);
-        }
+        if (!is_flat)
+            if (const auto added = addMeshes(scene, *node, transform); !added) return added.error();
         for (unsigned c = node->mNumChildren; c-- > 0;) {
             const Transform local = toTransform(node->mChildren[c]->mTransformation);
             waiting.push_back({node->mChildren[c], transform * local, is_flat || local.isFlat()});
@@ -74,6 +72,15 @@ engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Tra
     ImportedMesh mesh = mesh_.take();
     noteFlatNodes(mesh);
     return mesh;
+}
+
+engine::Result<void> SceneFlattener::addMeshes(const aiScene& scene, const aiNode& node, const Transform& transform) {
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+        if (node.mMeshes[m] >= scene.mNumMeshes) return badInput("a node refers to a mesh that is not there");
+        if (const char* wrong = addMesh(*scene.mMeshes[node.mMeshes[m]], transform))
+            return badInput("mesh " + std::to_string(node.mMeshes[m]) + ": " + wrong);
+    }
+    return {};
 }
 
 void SceneFlattener::noteFlatNodes(ImportedMesh& mesh) const {

@@ -72,18 +72,18 @@ std::set<std::string> FbxNodes::ancestorsOf(const std::set<std::string>& meshes,
     return reached;
 }
 
-std::vector<std::string> FbxNodes::notes(const Children& children, const std::set<std::string>& meshes) const {
+// Calls visit_node(node, visit) for the nodes with one of the meshes at or below them, parents first.
+template <class VisitNode>
+void FbxNodes::walk(const Children& children, const std::set<std::string>& meshes, const VisitNode& visit_node) const {
     const std::set<std::string> shown = ancestorsOf(meshes, children);
     std::set<std::string> walked;
-    std::vector<std::string> turned, inherited;
     std::vector<Visit> waiting = {{"0", {1, 1, 1}, {1, 1, 1}}};
     while (!waiting.empty()) {
         const Visit visit = waiting.back();
         waiting.pop_back();
         const auto found = nodes_.find(visit.id);
         const Node node = found == nodes_.end() ? Node{} : found->second;
-        if (!node.is_rotation_active && !(isZero(node.before) && isZero(node.behind))) turned.push_back(node.name);
-        if (dependsOnType(node, visit)) inherited.push_back(node.name);
+        visit_node(node, visit);
         const Double3& scales = visit.inherited_scale;
         const Double3 scale = {scales[0] * node.scale[0], scales[1] * node.scale[1], scales[2] * node.scale[2]};
         const auto below = children.find(visit.id);
@@ -91,6 +91,14 @@ std::vector<std::string> FbxNodes::notes(const Children& children, const std::se
             if (nodes_.contains(child) && shown.contains(child) && walked.insert(child).second)
                 waiting.push_back({child, scale, node.scale});
     }
+}
+
+std::vector<std::string> FbxNodes::notes(const Children& children, const std::set<std::string>& meshes) const {
+    std::vector<std::string> turned, inherited;
+    walk(children, meshes, [&](const Node& node, const Visit& visit) {
+        if (!node.is_rotation_active && !(isZero(node.before) && isZero(node.behind))) turned.push_back(node.name);
+        if (dependsOnType(node, visit)) inherited.push_back(node.name);
+    });
     std::vector<std::string> notes;
     addNote(notes, "PreRotation and PostRotation are applied although RotationActive is 0, at ", turned);
     addNote(notes, "the scale is inherited as by InheritType 1 (RSrs) although the file has another, at ", inherited);

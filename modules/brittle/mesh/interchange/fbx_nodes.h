@@ -37,6 +37,9 @@ private:
     static bool dependsOnType(const Node& node, const Visit& visit);
     static std::set<std::string> ancestorsOf(const std::set<std::string>& meshes, const Children& children);
 
+    template <class VisitNode>
+    void walk(const Children& children, const std::set<std::string>& meshes, const VisitNode& visit_node) const;
+
     std::map<std::string, Node> nodes_;
 };
 

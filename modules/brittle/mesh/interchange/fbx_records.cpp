@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <type_traits>
 
 namespace brittle {
 namespace {
@@ -91,45 +92,46 @@ std::optional<BinaryHead> BinaryWalk::headAt(size_t at) const {
 }
 
 template <class T>
-std::string textAt(std::string_view bytes, size_t at) {
+std::string takeNumber(std::string_view bytes, size_t& at) {
     const T number = numberAt<T>(bytes, at).value_or(0);
+    at += sizeof number;
     if constexpr (std::is_integral_v<T>)
         return std::to_string(number);
     else
         return formatNumber(static_cast<double>(number));
 }
 
+// nullopt if it reaches beyond the end.
+std::optional<std::string> takeText(std::string_view bytes, size_t& at) {
+    const auto size = numberAt<uint32_t>(bytes, at);
+    at += sizeof(uint32_t);
+    if (!size || at > bytes.size() || *size > bytes.size() - at) return std::nullopt;
+    at += *size;
+    return std::string(bytes.substr(at - *size, *size));
+}
+
+// Moves `at` behind the value. nullopt if it is neither a number nor a text.
+std::optional<std::string> takeValue(std::string_view bytes, size_t& at) {
+    switch (bytes[at++]) {
+    case 'L': return takeNumber<int64_t>(bytes, at);
+    case 'I': return takeNumber<int32_t>(bytes, at);
+    case 'Y': return takeNumber<int16_t>(bytes, at);
+    case 'C': return takeNumber<int8_t>(bytes, at);
+    case 'D': return takeNumber<double>(bytes, at);
+    case 'F': return takeNumber<float>(bytes, at);
+    case 'S': return takeText(bytes, at);
+    default: return std::nullopt;
+    }
+}
+
 // Stops at the first value that is neither a number nor a text.
 std::vector<std::string> BinaryWalk::valuesOf(const BinaryHead& head) const {
-    const std::string_view text = bytes_.substr(0, head.values_begin + head.values_size);
+    const std::string_view bytes = bytes_.substr(0, head.values_begin + head.values_size);
     std::vector<std::string> values;
-    for (size_t at = head.values_begin; at < text.size() && values.size() < std::min(kMostValues, head.value_count);) {
-        const char type = text[at++];
-        const auto add = [&]<class T>(T) {
-            values.push_back(textAt<T>(text, at));
-            at += sizeof(T);
-        };
-        if (type == 'L') {
-            add(int64_t{});
-        } else if (type == 'I') {
-            add(int32_t{});
-        } else if (type == 'Y') {
-            add(int16_t{});
-        } else if (type == 'C') {
-            add(int8_t{});
-        } else if (type == 'D') {
-            add(double{});
-        } else if (type == 'F') {
-            add(float{});
-        } else if (type == 'S') {
-            const auto size = numberAt<uint32_t>(text, at);
-            at += sizeof(uint32_t);
-            if (!size || at > text.size() || *size > text.size() - at) break;
-            values.emplace_back(text.substr(at, *size));
-            at += *size;
-        } else {
-            break;
-        }
+    for (size_t at = head.values_begin; at < bytes.size() && values.size() < std::min(kMostValues, head.value_count);) {
+        auto value = takeValue(bytes, at);
+        if (!value) break;
+        values.push_back(std::move(*value));
     }
     return values;
 }
