@@ -303,12 +303,19 @@ TEST(Collada, RotationsWithoutADirectionAreRefusedWithTheLine) {
             << axis;
 }
 
+TEST(Collada, LookatsWithoutADirectionAreRefusedWithTheLine) {
+    for (const char* lookat : {"1 2 3 1 2 3 0 1 0", "0 0 0 0 5 0 0 1 0", "0 0 0 0 0 -1 0 0 0"})
+        EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n<lookat>" + lookat + "</lookat>"), ".dae"),
+                  "line 2: a <lookat> without a direction, or whose up is parallel to it; replace it by a <matrix>")
+            << lookat;
+    EXPECT_NEAR(volumeOf(daeWith(kNode, kNode + "<lookat>1 2 3 1 2 10 0 1 0</lookat>"), ".dae"), 6, 1e-5);
+}
+
 TEST(Collada, NodesThatAScaleOfZeroMakesFlatAreLeftOut) {
     const std::string note = "1 node that a scale of 0 makes flat is left out: ";
     EXPECT_EQ(refusalOf(daeWith(kNode, "<node id=\"m\"><scale>1 0 1</scale><rotate>1 1 1 50</rotate>"), ".dae"),
               "no triangles in it (" + note + "\"m\"); export the model with its meshes");
-    const std::string flat =
-        "<node id=\"m\"><scale>0 0 0</scale><node id=\"k\"><instance_geometry url=\"#g\"/></node></node>";
+    const std::string flat = "<node id=\"m\"><scale>0 0 0</scale><node id=\"k\"><instance_geometry url=\"#g\"/></node></node>";
     EXPECT_EQ(notesOf(daeWith(kNode, flat + kNode), ".dae"), Notes{note + "\"k\""});
 }
 

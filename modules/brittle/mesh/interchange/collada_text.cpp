@@ -4,6 +4,7 @@
 #include "modules/brittle/mesh/interchange/collada_arrays.h"
 #include "modules/brittle/mesh/readers.h"
 #include "modules/brittle/mesh/text_reader.h"
+#include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
 #include <array>
@@ -41,6 +42,7 @@ private:
     const char* checkIndices(std::string_view indices) const;
     const char* checkMatrix(std::string_view numbers) const;
     const char* checkRotation(std::string_view text);
+    const char* checkLookat(std::string_view text) const;
     void checkController(const Tag& tag);
     void checkUnit(const Tag& tag);
     void checkAxis(const Tag& tag);
@@ -112,6 +114,7 @@ const char* ColladaCheck::check(const Tag& tag) {
     if (tag.name == "p") return checkIndices(tag.content);
     if (tag.name == "matrix") return checkMatrix(tag.content);
     if (tag.name == "rotate") return checkRotation(tag.content);
+    if (tag.name == "lookat") return checkLookat(tag.content);
     checkController(tag);
     if (tag.name == "unit") checkUnit(tag);
     if (tag.name == "up_axis") checkAxis(tag);
@@ -156,6 +159,15 @@ const char* ColladaCheck::checkRotation(std::string_view text) {
     std::snprintf(unit.data(), unit.size(), "%.9g %.9g %.9g %.9g", x / length, y / length, z / length, angle);
     edits_.emplace_back(text, unit.data());
     return nullptr;
+}
+
+// Assimp makes a matrix of zeros of it.
+const char* ColladaCheck::checkLookat(std::string_view text) const {
+    const auto n = numbersOf<9>(text);
+    if (!n) return nullptr; // assimp refuses it
+    const Double3 eye = {(*n)[0], (*n)[1], (*n)[2]}, target = {(*n)[3], (*n)[4], (*n)[5]}, up = {(*n)[6], (*n)[7], (*n)[8]};
+    const double side = length(cross(target - eye, up));
+    return side > 0 ? nullptr : "a <lookat> without a direction, or whose up is parallel to it; replace it by a <matrix>";
 }
 
 void ColladaCheck::checkController(const Tag& tag) {

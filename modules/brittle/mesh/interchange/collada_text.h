@@ -17,7 +17,7 @@ struct ColladaText {
 };
 
 // BadInput, with the line, for:
-//   skewed nodes; matrices that are no affine transforms; rotations about an axis of 0
+//   skewed nodes; matrices that are no affine transforms; rotations and lookats without a direction
 //   triangle fans; morphs, because assimp 5.2 does not find their meshes
 //   polygons with holes; negative indices; primitives without a count
 //   accessors that reach beyond their arrays, or whose params have no names
