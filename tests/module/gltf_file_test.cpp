@@ -185,7 +185,8 @@ TEST_F(GltfFolder, RefusalsNameTheMissingBuffer) {
     EXPECT_EQ(refusal("no%20such.bin", ""), file + "buffer 0: its file \"no such.bin\": no such file; put it beside the model");
     EXPECT_EQ(refusal(".", ""), file + "buffer 0: its file \".\": not a file; put it beside the model");
     EXPECT_EQ(refusal("empty.bin%00", ""),
-              file + "buffer 0: its file \"empty.bin" + std::string(1, ' ') + "\": no such file; put it beside the model");
+              file + "buffer 0: its uri \"empty.bin%00\" holds a zero byte, which no name of a file has; rename the buffer");
+    EXPECT_EQ(refusal("a%1Bb%7F.bin", ""), file + "buffer 0: its file \"a%1Bb%7F.bin\": no such file; put it beside the model");
 }
 
 TEST_F(GltfFolder, FromMemoryThereAreNoNeighbors) {

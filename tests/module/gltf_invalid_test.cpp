@@ -66,8 +66,21 @@ TEST(GltfInvalid, AMatrixBesideOtherPartsMustAgreeWithThem) {
 
 TEST(GltfInvalid, RotationsOfAnotherLengthAreNoted) {
     EXPECT_EQ(readWithNode({{"rotation", {0, 0, 3, 3}}}).notes,
-              Notes{"1 length of a rotation is left out: quaternions of nodes must have length 1"});
+              Notes{"1 rotation of another length than 1 is scaled to length 1"});
     EXPECT_EQ(readWithNode({{"rotation", {0, 0, 0.70711, 0.70711}}}).notes, Notes{});
+}
+
+TEST(GltfInvalid, NodesThatAScaleOfZeroMakesFlatAreLeftOut) {
+    const std::string note = "1 node with a mesh is left out: a scale of 0 makes it flat";
+    const json half_turned = {{"scale", {1, 0, 1}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}};
+    EXPECT_EQ(readWithNode(half_turned).refusal,
+              "the scene: it has no triangles (" + note + "); export the model with its meshes");
+    GltfBuilder builder = cubeFile();
+    builder.add("nodes", {{"mesh", 0}});
+    builder.addNode({{"scale", {0, 0, 0}}, {"children", {1}}});
+    const ReadModel model = readModel(builder);
+    EXPECT_EQ(model.notes, Notes{note});
+    EXPECT_NEAR(model.volume, 8, 1e-9);
 }
 
 TEST(GltfInvalid, BytesBehindAGlbAreNoted) {

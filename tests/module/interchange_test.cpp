@@ -115,6 +115,62 @@ TEST(FbxObjects, CommentsAndTextsAreNoRecords) {
     EXPECT_EQ(noteLostGeometries(text), Notes{"1 mesh that no connection leads to the scene is left out: \"yes\""});
 }
 
+// A box in a scaled node, and a tetrahedron in a node with properties below that.
+std::string fbxWithChild(const std::string& properties, const std::string& parent_scale = "1,2,1") {
+    const std::string child = withReplaced(model(201), "Shading: T", "Properties70: {\n" + properties + "}\nShading: T");
+    const std::string file = fbxWith(geometry(101, "extra") + child, "C: \"OO\",101,201\nC: \"OO\",201,200\n");
+    return withReplaced(file, "\"A\",1.000000,1.000000,1.000000", "\"A\"," + parent_scale);
+}
+
+std::string turn(const std::string& key, const std::string& degrees) {
+    return "P: \"" + key + "\", \"Vector3D\", \"Vector\", \"\"," + degrees + "\n";
+}
+std::string inherit(int type) { return "P: \"InheritType\", \"enum\", \"\", \"\"," + std::to_string(type) + "\n"; }
+
+TEST(FbxNodes, WhoseScaleIsInheritedOtherwiseAreNamed) {
+    const Notes note = {"the scale is inherited as by InheritType 1 (RSrs) although the file has another, at 1 node: \"m\""};
+    const std::string quarter = turn("Lcl Rotation", "0,0,90");
+    for (const int type : {0, 2})
+        EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(type)), ".fbx"), note) << type;
+    EXPECT_EQ(notesOf(fbxWithChild(turn("PreRotation", "45,0,0") + inherit(0)), ".fbx"), note);
+    EXPECT_EQ(notesOf(fbxWithChild(turn("Lcl Rotation", "10,20,30") + inherit(0)), ".fbx"), note);
+    EXPECT_EQ(notesOf(fbxWithChild(inherit(2), "100,100,100"), ".fbx"), note);
+}
+
+TEST(FbxNodes, WhoseShapeIsTheSameByEachTypeOfInheritanceAreNotNamed) {
+    const std::string quarter = turn("Lcl Rotation", "0,0,90");
+    EXPECT_EQ(notesOf(fbxWithChild(quarter), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(1)), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(0), "100,100,100"), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(quarter + inherit(2), "1,1,1"), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(turn("Lcl Rotation", "0,37,-180") + inherit(0)), ".fbx"), Notes{});
+}
+
+TEST(FbxNodes, WithoutMeshesAreNotNamed) {
+    const std::string odd = turn("Lcl Rotation", "0,0,90") + inherit(0);
+    const std::string file = withReplaced(fbxWithChild(odd), "C: \"OO\",101,201\n", "C: \"OO\",101,200\n");
+    EXPECT_EQ(notesOf(file, ".fbx"), Notes{});
+}
+
+TEST(FbxNodes, ThatAreTurnedWithoutAnActiveRotationAreNamed) {
+    const std::string inactive = "P: \"RotationActive\", \"bool\", \"\", \"\",0\n";
+    for (const char* key : {"PreRotation", "PostRotation"})
+        EXPECT_EQ(notesOf(fbxWithChild(turn(key, "-90,0,0") + inactive), ".fbx"),
+                  Notes{"PreRotation and PostRotation are applied although RotationActive is 0, at 1 node: \"m\""});
+    EXPECT_EQ(notesOf(fbxWithChild(turn("PreRotation", "0,0,0") + inactive), ".fbx"), Notes{});
+    EXPECT_EQ(notesOf(fbxWithChild(turn("PreRotation", "-90,0,0")), ".fbx"), Notes{});
+}
+
+TEST(FbxObjects, BlendShapesWithAWeightAreNamed) {
+    const auto shape = [](const std::string& content) {
+        return fbxWith("Deformer: 301, \"SubDeformer::smile\", \"BlendShapeChannel\" {\nVersion: 100\n" + content + "}\n", "");
+    };
+    const Notes note = {"1 blend shape with a DeformPercent other than 0 is left out: \"smile\""};
+    EXPECT_EQ(notesOf(shape("DeformPercent: 0.5\n"), ".fbx"), note);
+    EXPECT_EQ(notesOf(shape("Properties70: {\nP: \"DeformPercent\", \"Number\", \"\", \"A\",100\n}\n"), ".fbx"), note);
+    EXPECT_EQ(notesOf(shape("DeformPercent: 0\nFullWeights: *1 {\na: 100\n}\n"), ".fbx"), Notes{});
+}
+
 // ---- binary FBX -------------------------------------------------------------------------------------------------------------
 
 template <class T>
@@ -123,6 +179,7 @@ std::string bytesOf(T value) {
 }
 
 std::string integer(int64_t value) { return "L" + bytesOf(value); }
+std::string real(double value) { return "D" + bytesOf(value); }
 std::string text(const std::string& value) { return "S" + bytesOf(static_cast<uint32_t>(value.size())) + value; }
 
 // Writes records as of version 7.4 with 32-bit offsets, or as of 7.5 with 64 bits.
@@ -166,7 +223,14 @@ std::string binaryFbx(bool is_wide) {
         fbx.add("Geometry", {integer(1LL << 40), name("used"), text("Mesh")}, [&] { fbx.add("Vertices", {array}); });
         fbx.add("Geometry", {integer(2), name("lost"), text("Mesh")}, [&] { fbx.add("Vertices", {array}); });
         fbx.add("Geometry", {integer(3), name("wire"), text("NurbsCurve")});
-        fbx.add("Model", {integer(4), name("node"), text("Mesh")});
+        fbx.add("Model", {integer(4), name("node"), text("Mesh")}, [&] {
+            fbx.add("Properties70", {}, [&] {
+                fbx.add("P", {text("RotationActive"), text("bool"), text(""), text(""), "I" + bytesOf(int32_t{0})});
+                fbx.add("P", {text("PreRotation"), text("Vector3D"), text(""), text("A"), real(0), real(-45), real(0)});
+            });
+        });
+        fbx.add("Deformer", {integer(5), name("smile"), text("BlendShapeChannel")},
+                [&] { fbx.add("DeformPercent", {real(1e-9)}); });
     });
     fbx.add("Connections", {}, [&] {
         fbx.add("C", {text("OO"), integer(4), integer(0)});
@@ -179,7 +243,9 @@ std::string binaryFbx(bool is_wide) {
 TEST(FbxObjects, BinaryFilesAreLookedThrough) {
     for (const bool is_wide : {false, true})
         EXPECT_EQ(noteLostGeometries(binaryFbx(is_wide)),
-                  (Notes{"1 mesh that no connection leads to the scene is left out: \"lost\"",
+                  (Notes{"PreRotation and PostRotation are applied although RotationActive is 0, at 1 node: \"node\"",
+                         "1 blend shape with a DeformPercent other than 0 is left out: \"smile\"",
+                         "1 mesh that no connection leads to the scene is left out: \"lost\"",
                          "1 geometry that is no mesh is left out: \"wire\" (NurbsCurve)"}));
 }
 
@@ -203,10 +269,97 @@ const std::string kPolylist = "<polylist count=\"6\">", kNode = "<node id=\"n\">
 
 std::string daeWith(const std::string& from, const std::string& to) { return withReplaced(collada("", kSize), from, to); }
 
+// The largest coordinates of a model.
+Double3 highestCorner(const std::string& dae) {
+    const auto mesh = importMesh(dae, ".dae");
+    EXPECT_TRUE(mesh) << mesh.error().message;
+    if (!mesh) return {0, 0, 0};
+    Double3 highest = mesh->positions.front();
+    for (const Double3& position : mesh->positions)
+        for (size_t axis = 0; axis < 3; ++axis)
+            highest[axis] = std::max(highest[axis], position[axis]);
+    return highest;
+}
+
 TEST(Collada, SkewedNodesAreRefusedWithTheLine) {
     EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n\n<skew sid=\"s\">45 0 1 0 1 0 0</skew>"), ".dae"),
               "line 3: <skew> is not read; apply the transforms of the nodes before export");
     EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "<!-- <skew> --><![CDATA[<skew>]]>"), ".dae"), "");
+}
+
+// The corners of the box of 1, 2 and 3 after it is turned about a diagonal by 120 degrees.
+TEST(Collada, AxesOfRotationsMayHaveAnyLength) {
+    for (const char* rotation : {"1 1 1 120", "\n0.57735 0.57735 0.57735 120 ", "1e30 1e30 1e30 120", "1,5 1,5 1,5 120"})
+        EXPECT_LT(length(highestCorner(daeWith(kNode, kNode + "<rotate>" + rotation + "</rotate>")) - Double3{3, 1, 2}), 1e-5)
+            << rotation;
+    for (const char* rotation : {"0 0 2 0", "0 0 0 0", "0 0 -0.1 360"})
+        EXPECT_LT(length(highestCorner(daeWith(kNode, kNode + "<rotate>" + rotation + "</rotate>")) - kSize), 1e-5) << rotation;
+}
+
+TEST(Collada, RotationsWithoutADirectionAreRefusedWithTheLine) {
+    for (const char* axis : {"0 0 0", "nan 0 1", "inf 0 0"})
+        EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n<rotate>" + axis + " 90</rotate>"), ".dae"),
+                  "line 2: the axis of a <rotate> has no direction; give it an axis other than 0 0 0, or remove it")
+            << axis;
+}
+
+TEST(Collada, LookatsWithoutADirectionAreRefusedWithTheLine) {
+    for (const char* lookat : {"1 2 3 1 2 3 0 1 0", "0 0 0 0 5 0 0 1 0", "0 0 0 0 0 -1 0 0 0"})
+        EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "\n<lookat>" + lookat + "</lookat>"), ".dae"),
+                  "line 2: a <lookat> without a direction, or whose up is parallel to it; replace it by a <matrix>")
+            << lookat;
+    EXPECT_NEAR(volumeOf(daeWith(kNode, kNode + "<lookat>1 2 3 1 2 10 0 1 0</lookat>"), ".dae"), 6, 1e-5);
+}
+
+TEST(Collada, NodesThatAScaleOfZeroMakesFlatAreLeftOut) {
+    const std::string note = "1 node that a scale of 0 makes flat is left out: ";
+    EXPECT_EQ(refusalOf(daeWith(kNode, "<node id=\"m\"><scale>1 0 1</scale><rotate>1 1 1 50</rotate>"), ".dae"),
+              "no triangles in it (" + note + "\"m\"); export the model with its meshes");
+    const std::string flat = "<node id=\"m\"><scale>0 0 0</scale><node id=\"k\"><instance_geometry url=\"#g\"/></node></node>";
+    EXPECT_EQ(notesOf(daeWith(kNode, flat + kNode), ".dae"), Notes{note + "\"k\""});
+}
+
+TEST(Collada, TriangleFansAreRefusedWithTheLine) {
+    const std::string fan =
+        "\n<trifans count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 2 3 1</p></trifans>";
+    EXPECT_EQ(refusalOf(daeWith("</polylist>", "</polylist>" + fan), ".dae"),
+              "line 2: triangle fans (<trifans>) are not read; export triangles");
+}
+
+TEST(Collada, UpAxesAreReadBesideBlanksAndComments) {
+    for (const char* axis : {"Z_UP ", "\n  Z_UP\n", "<!-- up -->Z_UP", "Z_UP<!-- <up_axis>Y_UP</up_axis> -->"}) {
+        const std::string file = collada(std::string("<up_axis>") + axis + "</up_axis>", kSize);
+        EXPECT_EQ(notesOf(file, ".dae"), Notes{"z up: turned so that y is up"}) << axis;
+        EXPECT_NEAR(highestCorner(file)[1], 3, 1e-6) << axis;
+    }
+}
+
+TEST(Collada, CommentsAmongNumbersAreSkipped) {
+    EXPECT_EQ(highestCorner(daeWith(kNode, kNode + "<translate>1<!-- x --> 2 <!-- y\n -->3</translate>")), (Double3{2, 4, 6}));
+    EXPECT_NEAR(volumeOf(daeWith("<p>0 2 3 1", "<p><!-- a -->0 2 <!-- b --> 3 1"), ".dae"), 6, 1e-6);
+    EXPECT_EQ(refusalOf(daeWith(kNode, kNode + "<!-- \n\n --><skew>45 0 1 0 1 0 0</skew>"), ".dae").substr(0, 7), "line 3:");
+    EXPECT_NE(refusalOf(daeWith(kNode, kNode + "<!-- without an end"), ".dae"), "");
+}
+
+std::string skin(const std::string& matrix) {
+    return "<library_controllers><controller id=\"c\"><skin source=\"#g\"><bind_shape_matrix>" + matrix +
+           "</bind_shape_matrix></skin></controller></library_controllers><library_visual_scenes>";
+}
+
+TEST(Collada, MatricesOfSkinsAreNoted) {
+    const auto notes = [](const std::string& matrix) {
+        return notesOf(daeWith("<library_visual_scenes>", skin(matrix)), ".dae");
+    };
+    EXPECT_EQ(notes("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), Notes{});
+    EXPECT_EQ(notes("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"), Notes{"1 bind_shape_matrix of a controller is left out: \"c\""});
+}
+
+TEST(Collada, MorphsAreRefusedWithTheLine) {
+    const std::string morph =
+        "<library_controllers><controller id=\"c\">\n<morph source=\"#g\" method=\"NORMALIZED\"/></controller>"
+        "</library_controllers><library_visual_scenes>";
+    EXPECT_EQ(refusalOf(daeWith("<library_visual_scenes>", morph), ".dae"),
+              "line 2: <morph> controllers are not read; apply the shapes to the mesh before export");
 }
 
 TEST(Collada, PolygonsWithHolesAreRefusedWithTheLine) {

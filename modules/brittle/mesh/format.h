@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace brittle {
 
@@ -23,5 +24,14 @@ inline std::string formatCount(uint64_t count, const std::string& one, const std
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 inline std::string formatCount(uint64_t count, const std::string& one) { return formatCount(count, one, one + "s"); }
+
+// The first few, parted by commas.
+inline std::string formatList(const std::vector<std::string>& names) {
+    constexpr size_t kMost = 3;
+    std::string list;
+    for (size_t k = 0; k < names.size() && k < kMost; ++k)
+        list += (k > 0 ? ", " : "") + names[k];
+    return names.size() > kMost ? list + ", ..." : list;
+}
 
 } // namespace brittle

@@ -39,28 +39,55 @@ public:
     engine::Result<ImportedMesh> run(const aiScene& scene, const Transform& root);
 
 private:
+    struct Visit {
+        const aiNode* node;
+        Transform transform;
+        bool is_flat; // by a scale of 0, of the node or above it
+    };
+    engine::Result<void> addMeshes(const aiScene& scene, const aiNode& node, const Transform& transform);
     const char* addMesh(const aiMesh& mesh, const Transform& transform);
     PolygonCorner corner(const aiMesh& mesh, uint32_t index, const Transform& transform) const;
 
+    void noteFlatNodes(ImportedMesh& mesh) const;
+
     MeshBuilder mesh_;
+    std::vector<std::string> flat_nodes_; // with meshes, by a scale of 0
     uint32_t first_vertex_ = 0;
     std::vector<PolygonCorner> corners_;
 };
 
 engine::Result<ImportedMesh> SceneFlattener::run(const aiScene& scene, const Transform& root) {
-    std::vector<std::pair<const aiNode*, Transform>> waiting = {{scene.mRootNode, root}};
+    std::vector<Visit> waiting = {{scene.mRootNode, root, false}};
     while (!waiting.empty()) {
-        const auto [node, transform] = waiting.back();
+        const auto [node, transform, is_flat] = waiting.back();
         waiting.pop_back();
-        for (unsigned m = 0; m < node->mNumMeshes; ++m) {
-            if (node->mMeshes[m] >= scene.mNumMeshes) return badInput("a node refers to a mesh that is not there");
-            if (const char* wrong = addMesh(*scene.mMeshes[node->mMeshes[m]], transform))
-                return badInput("mesh " + std::to_string(node->mMeshes[m]) + ": " + wrong);
+        if (is_flat && node->mNumMeshes > 0) flat_nodes_.push_back('"' + std::string(node->mName.C_Str()) + '"');
+        if (!is_flat)
+            if (const auto added = addMeshes(scene, *node, transform); !added) return added.error();
+        for (unsigned c = node->mNumChildren; c-- > 0;) {
+            const Transform local = toTransform(node->mChildren[c]->mTransformation);
+            waiting.push_back({node->mChildren[c], transform * local, is_flat || local.isFlat()});
         }
-        for (unsigned c = node->mNumChildren; c-- > 0;)
-            waiting.emplace_back(node->mChildren[c], transform * toTransform(node->mChildren[c]->mTransformation));
     }
-    return mesh_.take();
+    ImportedMesh mesh = mesh_.take();
+    noteFlatNodes(mesh);
+    return mesh;
+}
+
+engine::Result<void> SceneFlattener::addMeshes(const aiScene& scene, const aiNode& node, const Transform& transform) {
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+        if (node.mMeshes[m] >= scene.mNumMeshes) return badInput("a node refers to a mesh that is not there");
+        if (const char* wrong = addMesh(*scene.mMeshes[node.mMeshes[m]], transform))
+            return badInput("mesh " + std::to_string(node.mMeshes[m]) + ": " + wrong);
+    }
+    return {};
+}
+
+void SceneFlattener::noteFlatNodes(ImportedMesh& mesh) const {
+    if (flat_nodes_.empty()) return;
+    mesh.notes.push_back(
+        formatCount(flat_nodes_.size(), "node that a scale of 0 makes flat is", "nodes that a scale of 0 makes flat are") +
+        " left out: " + formatList(flat_nodes_));
 }
 
 const char* SceneFlattener::addMesh(const aiMesh& mesh, const Transform& transform) {

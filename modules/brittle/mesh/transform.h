@@ -12,6 +12,13 @@ struct Transform {
     Double3 turned(const Double3& p) const { return {dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)}; }
     Double3 moved(const Double3& p) const { return turned(p) + offset; }
     Double3 column(size_t c) const { return {rows[0][c], rows[1][c], rows[2][c]}; }
+    // True for scales of 0: they leave zeros in a column or a row, beside one rotation.
+    bool isFlat() const {
+        const Double3 zero = {0, 0, 0};
+        for (size_t k = 0; k < 3; ++k)
+            if (column(k) == zero || rows[k] == zero) return true;
+        return false;
+    }
     double determinant() const { return dot(rows[0], cross(rows[1], rows[2])); }
     // Uses the cofactors, so that normals stay upright under uneven scale.
     Double3 turnedNormal(const Double3& n) const {

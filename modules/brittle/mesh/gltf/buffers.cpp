@@ -54,12 +54,16 @@ std::string_view Buffers::load(const Element& buffer, uint64_t index) {
 
 std::string Buffers::readFile(const Element& buffer, const std::string& uri) {
     if (isAbsolute(uri))
-        buffer.refuse("its uri \"" + uri + "\" is not relative to the file", "put the buffer beside the file and name it so");
+        buffer.refuse("its uri \"" + withEscapes(uri) + "\" is not relative to the file",
+                      "put the buffer beside the file and name it so");
     const std::string path = decodePercent(uri);
+    if (path.find('\0') != path.npos)
+        buffer.refuse("its uri \"" + withEscapes(uri) + "\" holds a zero byte, which no name of a file has",
+                      "rename the buffer");
     auto bytes = read_neighbor_(path);
     if (!bytes && path != uri) // some programs write a name with % as it is
         if (auto literal = read_neighbor_(uri)) bytes = std::move(literal);
-    if (!bytes) buffer.refuse("its file \"" + path + "\": " + bytes.error().message, "put it beside the model");
+    if (!bytes) buffer.refuse("its file \"" + withEscapes(path) + "\": " + bytes.error().message, "put it beside the model");
     return std::move(*bytes);
 }
 

@@ -32,11 +32,13 @@ void Notes::leaveOut(const char* one, const char* many, const char* why, uint64_
     kinds_.push_back({one, many, why, count});
 }
 
+void Notes::count(const char* one, const char* many) { leaveOut(one, many, ""); }
+
 std::vector<std::string> Notes::sentences() const {
     std::vector<std::string> sentences;
     for (const Kind& kind : kinds_) {
         const std::string end = kind.count == 1 ? " is left out: " + singular(kind.why) : " are left out: " + kind.why;
-        sentences.push_back(formatCount(kind.count, kind.one, kind.many) + end);
+        sentences.push_back(formatCount(kind.count, kind.one, kind.many) + (kind.why.empty() ? "" : end));
     }
     sentences.insert(sentences.end(), sentences_.begin(), sentences_.end());
     return sentences;

@@ -49,7 +49,8 @@ Transform composedOf(const Element& node, Notes& notes) {
     const Transform rotation = q ? rotationOf(node, {(*q)[0], (*q)[1], (*q)[2], (*q)[3]}) : Transform();
     const double squared = q ? (*q)[0] * (*q)[0] + (*q)[1] * (*q)[1] + (*q)[2] * (*q)[2] + (*q)[3] * (*q)[3] : 1;
     if (std::abs(squared - 1) > kRounding)
-        notes.leaveOut("length of a rotation", "lengths of rotations", "quaternions of nodes must have length 1");
+        notes.count("rotation of another length than 1 is scaled to length 1",
+                    "rotations of another length than 1 are scaled to length 1");
     return compose(tripleOf(node, "translation", {0, 0, 0}), rotation, tripleOf(node, "scale", {1, 1, 1}));
 }
 
@@ -119,12 +120,19 @@ std::vector<uint64_t> rootsOf(const Tree& tree) {
     return roots;
 }
 
-std::vector<Transform> worldsOf(const Document& document, const Tree& tree, Notes& notes) {
-    std::vector<Transform> worlds(tree.parents.size());
+struct Worlds {
+    std::vector<Transform> transforms;
+    std::vector<bool> are_flat; // by a scale of 0, of the node or above it
+};
+
+Worlds worldsOf(const Document& document, const Tree& tree, Notes& notes) {
+    Worlds worlds{std::vector<Transform>(tree.parents.size()), std::vector<bool>(tree.parents.size(), false)};
     std::vector<bool> reached(tree.parents.size(), false);
     walk(tree, rootsOf(tree), [&](uint64_t n) {
         const Transform local = localOf(document.element("nodes", n, "the file"), notes);
-        worlds[n] = tree.parents[n] == kNone ? local : worlds[tree.parents[n]] * local;
+        const uint64_t parent = tree.parents[n];
+        worlds.transforms[n] = parent == kNone ? local : worlds.transforms[parent] * local;
+        worlds.are_flat[n] = local.isFlat() || (parent != kNone && worlds.are_flat[parent]);
         reached[n] = true;
     });
     const auto lost = std::ranges::find(reached, false);
@@ -167,8 +175,9 @@ std::vector<uint64_t> chooseRoots(const Document& document, const Tree& tree, No
 
 Scene readScene(const Document& document, Notes& notes) {
     const Tree tree = readTree(document);
-    Scene scene{worldsOf(document, tree, notes), {}};
-    uint64_t all = 0;
+    const Worlds worlds = worldsOf(document, tree, notes);
+    Scene scene{worlds.transforms, {}};
+    uint64_t all = 0, flat = 0;
     std::vector<bool> is_used(document.size("meshes"), false);
     for (uint64_t n = 0; n < tree.parents.size(); ++n)
         if (const auto mesh = document.element("nodes", n, "the file").integer("mesh")) {
@@ -176,9 +185,15 @@ Scene readScene(const Document& document, Notes& notes) {
             if (*mesh < is_used.size()) is_used[*mesh] = true;
         }
     walk(tree, chooseRoots(document, tree, notes), [&](uint64_t n) {
-        if (document.element("nodes", n, "the file").has("mesh")) scene.mesh_nodes.push_back(n);
+        const Element node = document.element("nodes", n, "the file");
+        if (!node.has("mesh")) return;
+        const bool is_left_out = worlds.are_flat[n] && !node.has("skin"); // joints place the mesh of a skin
+        if (!is_left_out) scene.mesh_nodes.push_back(n);
+        flat += is_left_out ? 1 : 0;
     });
-    notes.leaveOut("node with a mesh", "nodes with meshes", "the scene does not hold them", all - scene.mesh_nodes.size());
+    notes.leaveOut("node with a mesh", "nodes with meshes", "a scale of 0 makes them flat", flat);
+    notes.leaveOut("node with a mesh", "nodes with meshes", "the scene does not hold them",
+                   all - scene.mesh_nodes.size() - flat);
     notes.leaveOut("mesh", "meshes", "no node uses them", static_cast<uint64_t>(std::ranges::count(is_used, false)));
     return scene;
 }

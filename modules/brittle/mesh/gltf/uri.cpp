@@ -61,6 +61,20 @@ std::string decodePercent(std::string_view uri) {
     return text;
 }
 
+std::string withEscapes(std::string_view text) {
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    std::string escaped;
+    for (const char c : text) {
+        const auto code = static_cast<uint8_t>(c);
+        const bool is_control = code < 0x20 || code == 0x7F;
+        if (is_control)
+            escaped += {'%', kHex[code / 16], kHex[code % 16]};
+        else
+            escaped += c;
+    }
+    return escaped;
+}
+
 std::string decodeDataUri(std::string_view uri, const std::string& where) {
     const size_t comma = uri.find(',');
     if (comma == uri.npos) refuse(where, "its data: URI has no comma");

@@ -14,6 +14,9 @@ bool isAbsolute(std::string_view uri);
 // Replaces %20 and the like by their bytes. A % without two hexadecimal digits stays.
 std::string decodePercent(std::string_view uri);
 
+// The text with control characters as %00 and the like, for errors.
+std::string withEscapes(std::string_view text);
+
 // The bytes within a data: URI; `where` is for errors.
 std::string decodeDataUri(std::string_view uri, const std::string& where);
 

@@ -56,6 +56,21 @@ std::string unescaped(std::string_view text) {
     return plain;
 }
 
+std::string withBlankComments(std::string_view text) {
+    constexpr std::string_view kComment = "<!--", kCommentEnd = "-->", kData = "<![CDATA[", kDataEnd = "]]>";
+    std::string blank(text);
+    for (size_t at = blank.find("<!"); at < blank.size(); at = blank.find("<!", at + 1)) {
+        const bool is_comment = text.substr(at).starts_with(kComment);
+        if (!is_comment && !text.substr(at).starts_with(kData)) continue;
+        const size_t end = is_comment ? text.find(kCommentEnd, at + kComment.size()) : text.find(kDataEnd, at);
+        if (end == text.npos) break; // assimp refuses the file
+        for (; is_comment && at < end + kCommentEnd.size(); ++at)
+            if (blank[at] != '\n' && blank[at] != '\r') blank[at] = ' ';
+        at = end;
+    }
+    return blank;
+}
+
 std::optional<double> parseColladaNumber(std::string_view word) {
     if (const auto number = parseNumber(word)) return number;
     std::string with_point(word);

@@ -30,6 +30,9 @@ private:
 // The text with &amp; and the like replaced by what they stand for.
 std::string unescaped(std::string_view text);
 
+// The text with blanks in place of comments. Line ends stay, so that lines keep their numbers.
+std::string withBlankComments(std::string_view text);
+
 // Parses a number of COLLADA. A decimal comma has one meaning there, because blanks part the numbers.
 std::optional<double> parseColladaNumber(std::string_view word);
 

@@ -1,18 +1,35 @@
 #include "modules/brittle/mesh/interchange/fbx_records.h"
 
+#include "modules/brittle/mesh/format.h"
+#include "modules/brittle/mesh/text_reader.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <type_traits>
 
 namespace brittle {
 namespace {
 
 using Visit = std::function<void(const FbxRecord&)>;
 
-constexpr size_t kMostValues = 4; // of the records of interest
+constexpr size_t kMostValues = 7; // of a property that is a vector
+constexpr std::string_view kProperty = "P", kProperties = "Properties70", kDeformPercent = "DeformPercent";
 
 bool isOfInterest(std::string_view section) { return section == "Objects" || section == "Connections"; }
+bool hasProperties(std::string_view section, std::string_view key) {
+    return section == "Objects" && (key == "Model" || key == "Deformer");
+}
+
+// The numbers of a `P` stand behind its name, type, label and flags.
+FbxProperty propertyOf(std::string_view key, const std::vector<std::string>& values) {
+    const bool is_named = key == kProperty && !values.empty();
+    FbxProperty property{is_named ? values.front() : std::string(key), {}};
+    for (size_t k = is_named ? 4 : 0; k < values.size(); ++k)
+        property.numbers.push_back(parseNumber(values[k]).value_or(0));
+    return property;
+}
 
 // ---- binary: every record begins with the offset of its end
 // ------------------------------------------------------------------
@@ -44,7 +61,15 @@ private:
     std::optional<BinaryHead> headAt(size_t at) const;
     uint64_t wordAt(size_t at) const;
     std::vector<std::string> valuesOf(const BinaryHead& head) const;
+    std::vector<FbxProperty> propertiesOf(const BinaryHead& head) const;
 
+    // Calls visit(record) for all that lie within another.
+    template <class VisitHead>
+    void forEachChild(const BinaryHead& parent, const VisitHead& visit) const {
+        const size_t first = parent.values_begin + parent.values_size;
+        for (auto record = headAt(first); record && record->end <= parent.end; record = headAt(record->end))
+            visit(*record);
+    }
     std::string_view bytes_;
     const Visit& visit_;
     bool is_wide_; // offsets of 64 bits, since version 7.5
@@ -66,37 +91,69 @@ std::optional<BinaryHead> BinaryWalk::headAt(size_t at) const {
     return head;
 }
 
-// Stops at the first value that is neither an integer nor a text.
+template <class T>
+std::string takeNumber(std::string_view bytes, size_t& at) {
+    const T number = numberAt<T>(bytes, at).value_or(0);
+    at += sizeof number;
+    if constexpr (std::is_integral_v<T>)
+        return std::to_string(number);
+    else
+        return formatNumber(static_cast<double>(number));
+}
+
+// nullopt if it reaches beyond the end.
+std::optional<std::string> takeText(std::string_view bytes, size_t& at) {
+    const auto size = numberAt<uint32_t>(bytes, at);
+    at += sizeof(uint32_t);
+    if (!size || at > bytes.size() || *size > bytes.size() - at) return std::nullopt;
+    at += *size;
+    return std::string(bytes.substr(at - *size, *size));
+}
+
+// Moves `at` behind the value. nullopt if it is neither a number nor a text.
+std::optional<std::string> takeValue(std::string_view bytes, size_t& at) {
+    switch (bytes[at++]) {
+    case 'L': return takeNumber<int64_t>(bytes, at);
+    case 'I': return takeNumber<int32_t>(bytes, at);
+    case 'Y': return takeNumber<int16_t>(bytes, at);
+    case 'C': return takeNumber<int8_t>(bytes, at);
+    case 'D': return takeNumber<double>(bytes, at);
+    case 'F': return takeNumber<float>(bytes, at);
+    case 'S': return takeText(bytes, at);
+    default: return std::nullopt;
+    }
+}
+
+// Stops at the first value that is neither a number nor a text.
 std::vector<std::string> BinaryWalk::valuesOf(const BinaryHead& head) const {
-    const std::string_view text = bytes_.substr(0, head.values_begin + head.values_size);
+    const std::string_view bytes = bytes_.substr(0, head.values_begin + head.values_size);
     std::vector<std::string> values;
-    for (size_t at = head.values_begin; at < text.size() && values.size() < std::min(kMostValues, head.value_count);) {
-        const char type = text[at++];
-        if (type == 'L') {
-            values.push_back(std::to_string(numberAt<int64_t>(text, at).value_or(0)));
-            at += sizeof(int64_t);
-        } else if (type == 'I') {
-            values.push_back(std::to_string(numberAt<int32_t>(text, at).value_or(0)));
-            at += sizeof(int32_t);
-        } else if (type == 'S') {
-            const auto size = numberAt<uint32_t>(text, at);
-            at += sizeof(uint32_t);
-            if (!size || at > text.size() || *size > text.size() - at) break;
-            values.emplace_back(text.substr(at, *size));
-            at += *size;
-        } else {
-            break;
-        }
+    for (size_t at = head.values_begin; at < bytes.size() && values.size() < std::min(kMostValues, head.value_count);) {
+        auto value = takeValue(bytes, at);
+        if (!value) break;
+        values.push_back(std::move(*value));
     }
     return values;
+}
+
+std::vector<FbxProperty> BinaryWalk::propertiesOf(const BinaryHead& head) const {
+    std::vector<FbxProperty> properties;
+    const auto add = [&](const BinaryHead& property) { properties.push_back(propertyOf(property.key, valuesOf(property))); };
+    forEachChild(head, [&](const BinaryHead& child) {
+        if (child.key == kDeformPercent) add(child);
+        if (child.key == kProperties) forEachChild(child, add);
+    });
+    return properties;
 }
 
 void BinaryWalk::run() {
     for (auto section = headAt(kFirstRecord); section; section = headAt(section->end)) {
         if (!isOfInterest(section->key)) continue;
-        const size_t first = section->values_begin + section->values_size;
-        for (auto record = headAt(first); record && record->end <= section->end; record = headAt(record->end))
-            visit_({section->key, record->key, valuesOf(*record)});
+        forEachChild(*section, [&](const BinaryHead& record) {
+            FbxRecord found{section->key, record.key, valuesOf(record), {}};
+            if (hasProperties(section->key, record.key)) found.properties = propertiesOf(record);
+            visit_(found);
+        });
     }
 }
 
@@ -114,6 +171,7 @@ private:
     void begin(std::string_view key);
     void addValue(std::string_view value);
     void finish();
+    void finishProperty();
     void close();
 
     std::string_view rest_;
@@ -121,7 +179,10 @@ private:
     size_t depth_ = 0;
     std::string_view section_;
     FbxRecord record_;
+    std::string_view property_; // its key
+    std::vector<std::string> property_values_;
     bool is_open_ = false; // the record
+    bool is_property_open_ = false;
 };
 
 void TextWalk::run() {
@@ -162,15 +223,28 @@ void TextWalk::readWord() {
 }
 
 void TextWalk::begin(std::string_view key) {
-    if (depth_ > 1) return;
+    finishProperty();
+    if (depth_ > 1) {
+        is_property_open_ =
+            is_open_ && hasProperties(section_, record_.key) && key == (depth_ == 2 ? kDeformPercent : kProperty);
+        property_ = key;
+        return;
+    }
     finish();
     if (depth_ == 0) section_ = key;
     is_open_ = depth_ == 1 && isOfInterest(section_);
-    record_ = {section_, key, {}};
+    record_ = {section_, key, {}, {}};
 }
 
 void TextWalk::addValue(std::string_view value) {
+    if (is_property_open_ && property_values_.size() < kMostValues) property_values_.emplace_back(value);
     if (is_open_ && depth_ == 1 && record_.values.size() < kMostValues) record_.values.emplace_back(value);
+}
+
+void TextWalk::finishProperty() {
+    if (is_property_open_) record_.properties.push_back(propertyOf(property_, property_values_));
+    is_property_open_ = false;
+    property_values_.clear();
 }
 
 void TextWalk::finish() {
@@ -179,6 +253,7 @@ void TextWalk::finish() {
 }
 
 void TextWalk::close() {
+    finishProperty();
     if (depth_ == 1) finish();
     depth_ -= depth_ > 0 ? 1 : 0;
 }
