@@ -176,6 +176,16 @@ TEST(OutputFile, RemovesWhatAKilledProcessLeft) {
         EXPECT_EQ(contentOf(kept), "left") << kept;
 }
 
+// The number of a killed process may be that of another by then.
+TEST(OutputFile, RemovesWhatNobodyHasWrittenToForMinutes) {
+    const Folder folder;
+    const auto partial = folder / ("a.glb.part" + std::to_string(getppid()));
+    std::ofstream(partial) << "left";
+    std::filesystem::last_write_time(partial, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5));
+    ASSERT_TRUE(OutputFile::create(folder / "a.glb"));
+    EXPECT_FALSE(std::filesystem::exists(partial));
+}
+
 TEST(OutputFile, LeavesWhatAnotherMachineIsWriting) {
     const Folder folder;
     const auto partial = folder / ("a.glb.part" + std::to_string(endedProcess()));

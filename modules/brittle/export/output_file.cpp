@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <fstream>
@@ -35,13 +36,23 @@ bool isLocked(const std::filesystem::path& file) {
     return locked;
 }
 
+// A process writes its file within a minute of making it, or holds a lock on it. So the number of a file that has neither may
+// be that of another process by now.
+bool isAbandoned(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(file, error);
+    return !error && std::filesystem::file_time_type::clock::now() - written > std::chrono::minutes(1);
+}
+
 // Removes what killed processes left beside `place`.
 void removeStale(const std::filesystem::path& place) {
     std::error_code ignored;
     const std::filesystem::path folder = place.has_parent_path() ? place.parent_path() : ".";
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         const pid_t writer = writerOf(entry.path().filename().native(), place.filename().native());
-        if (writer == 0 || kill(writer, 0) == 0 || errno != ESRCH || isLocked(entry.path())) continue;
+        if (writer == 0) continue;
+        const bool has_ended = kill(writer, 0) != 0 && errno == ESRCH;
+        if ((!has_ended && !isAbandoned(entry.path())) || isLocked(entry.path())) continue;
         std::filesystem::remove(entry.path(), ignored);
     }
 }
