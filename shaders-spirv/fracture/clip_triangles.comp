@@ -11,8 +11,8 @@
 #ifndef MAX_SIDES
 #define MAX_SIDES USUAL_SIDES
 #endif
-// Of a polygon of many sides a lane would take too many turns. There the loop over the corners of a triangle is none, and sides are
-// copied by fours.
+// A lane would take too many turns for a polygon of many sides. That variant has no loop over the corners of a triangle, and it copies
+// sides by fours.
 #if MAX_SIDES > USUAL_SIDES
 #define CORNERS 3u
 #define AT_ONCE 4

@@ -24,7 +24,7 @@ struct MaterialTint {
 constexpr MaterialTint kTints[] = {{"glass", {0.47, 0.22, 0.74}}, {"ice", {0.55, 0.14, 0.82}},
                                    {"brick", {0.03, 0.55, 0.55}}, {"concrete", {0.12, 0.06, 0.58}},
                                    {"stone", {0.1, 0.14, 0.5}},   {"porcelain", {0.12, 0.05, 0.8}}};
-constexpr double kOwnSaturation = 0.37, kOwnValue = 0.72; // of what is of none of these
+constexpr double kOwnSaturation = 0.37, kOwnValue = 0.72; // of bodies of other materials
 
 // Built-in materials look alike everywhere; other bodies have hues that tell them apart.
 Tint tintOf(const brittle::BodyLook& look, size_t number) {

@@ -137,7 +137,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     PoolRoom& pools = room.pools;
     pools.capacity = {room.bodies + fragments, room.pieces + fragments, faces + chosen(budget.faces, kFacesOfOne * fragments),
                       room.surfaces.capacity};
-    pools.objects = fragments + breakable + room.surfaces.parts() - 1; // what lies between two parts is taken, too
+    pools.objects = fragments + breakable + room.surfaces.parts() - 1; // the triangle between two parts is taken, too
     pools.owners = room.step_bodies;
     pools.returned = std::max<uint32_t>(room.step_bodies, MOST_EXPIRING);
     if (const uint32_t beside = pools.ranges() - fragments; pools.ranges() > POOL_MOST_FREE)

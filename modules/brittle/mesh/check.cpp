@@ -184,8 +184,7 @@ void Inspector::checkNesting(const TriangleTree& tree, const Components& compone
     }
     complain(report_.misplaced_components, "part", first,
              "in another part, wholly or partly, or inside out; unite the parts (boolean union), move them apart, or turn the "
-             "walls of "
-             "hollows inward");
+             "walls of hollows inward");
 }
 
 } // namespace
