@@ -59,22 +59,15 @@ void KernelWarmup::finish() {
 LateWarmup::LateWarmup(const Device& device, const KernelLibrary& library, std::chrono::milliseconds patience)
     : device_(device), library_(library) {
     if (!KernelTwin::helps(device)) return;
+    if (std::thread::hardware_concurrency() < 2) return;
     requests_ = library.requests();
-    constexpr unsigned kMostThreads = 4; // beside the driver's own
-    const unsigned cores = std::min(std::max(1u, std::thread::hardware_concurrency()), kMostThreads + 1);
-    for (unsigned k = 1; k < cores; ++k)
-        threads_.emplace_back([this, patience](const std::stop_token& stop) { quietly([&] { work(stop, patience); }); });
+    thread_ = std::jthread([this, patience](const std::stop_token& stop) { quietly([&] { work(stop, patience); }); });
 }
 
-void LateWarmup::stop() {
-    for (std::jthread& thread : threads_)
-        thread.request_stop();
-}
+void LateWarmup::stop() { thread_.request_stop(); }
 
 void LateWarmup::finish() {
-    for (std::jthread& thread : threads_)
-        thread.join();
-    threads_.clear();
+    if (thread_.joinable()) thread_.join();
 }
 
 void LateWarmup::work(const std::stop_token& stop, std::chrono::milliseconds patience) {
@@ -82,7 +75,12 @@ void LateWarmup::work(const std::stop_token& stop, std::chrono::milliseconds pat
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
     never.wait_for(lock, stop, patience, [] { return false; });
-    if (!stop.stop_requested()) compileNextOnes(stop);
+    if (stop.stop_requested()) return;
+    constexpr unsigned kMostThreads = 4; // beside the driver's own
+    std::vector<std::jthread> others;
+    for (unsigned k = 1; k < std::min(std::thread::hardware_concurrency() - 1, kMostThreads); ++k)
+        others.emplace_back([&] { quietly([&] { compileNextOnes(stop); }); });
+    compileNextOnes(stop);
 }
 
 void LateWarmup::compileNextOnes(const std::stop_token& stop) {

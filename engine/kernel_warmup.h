@@ -48,7 +48,7 @@ private:
     const KernelLibrary& library_;
     std::vector<KernelRequest> requests_;
     std::atomic<size_t> taken_ = 0;
-    std::vector<std::jthread> threads_;
+    std::jthread thread_; // which waits, and then has others beside it
 
     void work(const std::stop_token& stop, std::chrono::milliseconds patience);
     void compileNextOnes(const std::stop_token& stop);
