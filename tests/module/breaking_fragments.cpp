@@ -28,16 +28,10 @@ gpu::ivec4 onGrid(const brittle::Float3& p, int32_t last) {
     return {snap(p[0]), snap(p[1]), snap(p[2]), last};
 }
 
-} // namespace
-
-Breaking breakingFragments(const char* name, uint32_t sites, float scale) {
-    const whole::Model model = whole::modelFrom(name);
-    brittle::FractureOptions options;
-    options.site_count = sites;
-    auto broken = whole::fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
-    EXPECT_TRUE(broken) << broken.error().message;
+// Every fragment of the set.
+Breaking breakingOf(brittle::FragmentSet set, float scale) {
     Breaking b;
-    b.set = std::move(broken->fragments);
+    b.set = std::move(set);
     for (size_t f = 0; f < b.set.fragments.size(); ++f) {
         auto prepared = brittle::prepareFragment(b.set, f);
         EXPECT_TRUE(prepared) << prepared.error().message;
@@ -52,6 +46,33 @@ Breaking breakingFragments(const char* name, uint32_t sites, float scale) {
         b.prepared.push_back(std::move(*prepared));
     }
     return b;
+}
+
+} // namespace
+
+Breaking breakingFragments(const char* name, uint32_t sites, float scale) {
+    const whole::Model model = whole::modelFrom(name);
+    brittle::FractureOptions options;
+    options.site_count = sites;
+    auto broken = whole::fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
+    EXPECT_TRUE(broken) << broken.error().message;
+    return breakingOf(std::move(broken->fragments), scale);
+}
+
+Breaking breakingSolid(const brittle::ImportedMesh& solid) {
+    brittle::FragmentSet set;
+    for (const brittle::Index3& corners : solid.triangles)
+        for (const uint32_t corner : corners) {
+            brittle::FragmentVertex v{};
+            for (size_t k = 0; k < 3; ++k)
+                v.position[k] = static_cast<float>(solid.positions[corner][k]);
+            set.indices.push_back(static_cast<uint32_t>(set.vertices.size()));
+            set.vertices.push_back(v);
+        }
+    brittle::Fragment fragment;
+    fragment.vertex_count = fragment.outer_index_count = static_cast<uint32_t>(set.indices.size());
+    set.fragments = {fragment};
+    return breakingOf(std::move(set), 0);
 }
 
 brittle::Float3 scaledPlace(const PreparedMesh& object, uint32_t vertex, float scale) {

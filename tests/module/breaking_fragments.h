@@ -21,6 +21,9 @@ struct Breaking {
 // host takes.
 Breaking breakingFragments(const char* model, uint32_t sites, float scale = 0);
 
+// One object.
+Breaking breakingSolid(const brittle::ImportedMesh& solid);
+
 brittle::Float3 scaledPlace(const brittle::PreparedMesh& object, uint32_t vertex, float scale);
 
 // A blow on the first vertex of each object, which is to have so many sites.

@@ -5,9 +5,11 @@
 #include "modules/brittle/fracture/readback.h"
 #include "modules/brittle/fracture/scene_buffers.h"
 #include "modules/brittle/fracture/upload.h"
+#include "modules/brittle/mesh/primitives.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/breaking_fragments.h"
 #include "tests/module/whole_fracture.h"
+#include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
 
@@ -111,7 +113,8 @@ private:
             commands_.copy(engine::BufferView(*asked_).sub(4 * k, 4), b.counts.sub(4 * kAsked[k], 4));
         for (const uint32_t count : kAsked)
             recorder.publish(count, NO_INDEX);
-        brittle::recordBreaking(recorder, event_, *records_, engine::BufferView(*vertices_), scene_->views(), colliders_->views());
+        brittle::recordBreaking(recorder, event_, *records_, engine::BufferView(*vertices_), scene_->views(),
+                                colliders_->views());
         ASSERT_TRUE(recorder.status()) << recorder.status().error().message;
     }
 
@@ -235,6 +238,25 @@ TEST(DeviceBreaking, WithoutRoomInAPoolOfTheEventNothingBreaks) {
     expectNothing(out, {COUNT_CROSSINGS, COUNT_POLYGONS, COUNT_FACES, COUNT_FRAGMENTS, COUNT_EMITTED});
     expectNothing(device.run(2), {COUNT_FRAGMENTS});
     EXPECT_EQ(device.run(0).status[STATUS_FAILED], 0u);
+}
+
+// The same as touching_islands_test.cpp has of models.
+TEST(DeviceBreaking, NoFragmentHoldsPartsOfSolidsThatTouchAlongAnEdge) {
+    using support::operator+;
+    for (const double off : {0.0, 6e-8}) { // less than a step of the grid
+        Breaking breaking =
+            breaking_test::breakingSolid(brittle::makeCube() + support::moved(brittle::makeCube(), 1, {1 + off, 1, 0}));
+        breaking_test::hit(breaking, 12, 1 << 20, 5);
+        brittle::BreakingRoom room = roomOf(breaking);
+        room.touching = true;
+        const Outcome out = BreakDevice(breaking, brittle::planBreaking(device(), GROUP_SIZE, room)).run(1);
+        expectAsTheHostBreaks(breaking, out, 1);
+        uint32_t in_both = 0;
+        for (const brittle::Fragment& fragment : out.all.fragments.fragments)
+            in_both += fragment.lower[0] < 0.24f && fragment.upper[0] > 0.26f; // the edge lies at 0.25
+        EXPECT_EQ(in_both, 0u);
+        EXPECT_GT(out.all.fragments.fragments.size(), 12u);
+    }
 }
 
 TEST(Breaking, ManyBreakAtOnce) {

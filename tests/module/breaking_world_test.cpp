@@ -3,15 +3,19 @@
 #include "modules/brittle/dynamics/scene_contents.h"
 #include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/effects/material.h"
+#include "modules/brittle/mesh/primitives.h"
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/engine/test_device.h"
 #include "tests/module/breaking_scenes.h"
+#include "tests/support/solids.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace {
 
@@ -91,6 +95,40 @@ TEST(BreakingWorld, FragmentsTellWhatTheyLookLike) {
     const brittle::SurfaceMesh& whole = surfaces.meshes[surfaces.bodies[1].mesh];
     EXPECT_NEAR(volume, volumeOf(whole), 1e-5 * volume);
     EXPECT_NEAR(area, outerAreaOf(whole), 1e-4 * area);
+}
+
+// Whether more than two triangles have the same two corners.
+bool touchesItself(const brittle::SurfaceMesh& surface) {
+    std::map<std::set<brittle::Float3>, uint32_t> uses;
+    const auto placeOf = [&](size_t k) {
+        const float* p = surface.vertices[surface.indices[k]].position;
+        return brittle::Float3{p[0], p[1], p[2]};
+    };
+    for (size_t k = 0; k < surface.indices.size(); ++k)
+        ++uses[{placeOf(k), placeOf(k - k % 3 + (k + 1) % 3)}];
+    return std::ranges::any_of(uses, [](const auto& use) { return use.second > 2; });
+}
+
+TEST(BreakingWorld, PartsThatTouchAlongAnEdgeComeApartWhenTheirBodyBreaks) {
+    using support::operator+;
+    BodyDescription pair = ball({0, 0.2, 0}, "glass");
+    pair.velocity = {0, -9, 0};
+    pair.shape.kind = brittle::ShapeKind::Mesh;
+    pair.shape.model = std::make_shared<brittle::ImportedMesh>(support::moved(brittle::makeCube(), 0.1, {0, 0, 0}) +
+                                                               support::moved(brittle::makeCube(), 0.1, {0.1, 0.1, 0}));
+    pair.shape.cells.sites = 1;
+    const SceneDescription scene = sceneOf({pair});
+    brittle::WorldSurfaces surfaces;
+    const auto fracture = brittle::fractureFor(scene, engine_test::device());
+    ASSERT_TRUE(fracture && brittle::contentsOf(scene, {}, fracture->get(), &surfaces));
+    EXPECT_TRUE(touchesItself(surfaces.meshes[surfaces.bodies[0].mesh]));
+    const auto world = worldOf(scene);
+    ASSERT_EQ(stepUntilItBreaks(*world, 10).size(), 1u);
+    const auto looks = world->surfacesOf(*world->fragments());
+    ASSERT_TRUE(looks);
+    EXPECT_GT(looks->size(), 10u);
+    for (const brittle::SurfaceMesh& look : *looks)
+        EXPECT_FALSE(touchesItself(look));
 }
 
 TEST(BreakingWorld, ABallThatIsSetDownDoesNotBreak) {

@@ -47,6 +47,7 @@ Capacities roomForBreaking(const BreakingRoom& room, uint32_t collider_direction
     Capacities c = usualCapacities(mostOf(room));
     c.bins = gridOfTiles(room.mesh.objects, room.most_sites).binCount();
     c.tiled = true;
+    c.touching = room.touching;
     // Sites that crowd about a blow as the paper has them asked for it of 9 in 100 cells, narrow rings of 45, others of far
     // fewer.
     c.exact_medium = std::min(c.exact_medium, std::max(64u, room.sites / 2));

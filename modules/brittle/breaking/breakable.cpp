@@ -1,6 +1,7 @@
 #include "modules/brittle/breaking/breakable.h"
 
 #include "modules/brittle/effects/blow.h"
+#include "modules/brittle/fracture/wedges.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
@@ -48,6 +49,25 @@ Extent addTriangles(std::vector<FragmentVertex>& pool, const SurfaceMesh& surfac
     return extent;
 }
 
+// On the grid that breaking/admit_breaking.comp chooses.
+bool touchesItself(const SurfaceMesh& surface, const Extent& extent) {
+    float half_size = 0;
+    for (size_t k = 0; k < 3; ++k)
+        half_size = std::max(half_size, 0.5f * (extent.high[k] - extent.low[k]));
+    const float steps = std::ldexp(1.0f, 23 - std::ilogb(half_size) - 1);
+    SnappedMesh snapped(surface.indices.size());
+    for (const uint32_t index : surface.indices) {
+        Int3 place;
+        for (size_t k = 0; k < 3; ++k)
+            place[k] = static_cast<int32_t>(
+                std::nearbyint((surface.vertices[index].position[k] - 0.5f * (extent.low[k] + extent.high[k])) * steps));
+        snapped.addVertex(place);
+    }
+    for (uint32_t k = 0; k + 2 < surface.indices.size(); k += 3)
+        snapped.addTriangle({k, k + 1, k + 2});
+    return snapped.touchesItself();
+}
+
 } // namespace
 
 gpu::BreakableBody unbreakable() {
@@ -64,6 +84,7 @@ Result<void> makeBreakable(WorldContents& contents, const BreakableDefinition& d
     gpu::BreakableBody& body = contents.breakable[d.body];
     const auto first = static_cast<uint32_t>(contents.surface_vertices.size());
     const Extent extent = addTriangles(contents.surface_vertices, d.surface);
+    contents.some_surface_touches_itself = contents.some_surface_touches_itself || touchesItself(d.surface, extent);
     const uint32_t own = d.surface.outer_index_count, other = static_cast<uint32_t>(d.surface.indices.size()) - own;
     const Turn axes = axesOf(d.definition);
     body.surface = {first, own, other, cardIndex(contents, d.material)};

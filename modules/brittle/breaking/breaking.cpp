@@ -36,7 +36,7 @@ public:
         : device_(device), room_(room), settings_(settings), effects_(effectsOf(settings)) {}
 
     Result<void> make(const WorldContents& contents, uint32_t pairs, uint32_t group_size) {
-        const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments};
+        const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments, room_.touching};
         event_ = planBreaking(device_, group_size, event, kDirections);
         sizes_ = {pairs, static_cast<uint32_t>(contents.bodies.size()), event_.capacity.fragments};
         // More fragments than that, and objects stay whole for want of room.

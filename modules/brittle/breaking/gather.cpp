@@ -1,5 +1,6 @@
 #include "modules/brittle/breaking/gather.h"
 
+#include "modules/brittle/fracture/firsts.h"
 #include "modules/brittle/fracture/pools.h"
 
 #include <algorithm>
@@ -7,19 +8,8 @@
 namespace brittle {
 namespace {
 
-// The first of all that are the same, and flags of those that are the first.
-void recordFirsts(Recorder& record, std::string_view weld, uint32_t count, engine::BufferView keys, const GatherRoom& room,
-                  const GatherBuffers& b) {
-    struct Push {
-        uint32_t length, length_count, table_mask;
-    } push = {0, count, tableSize(room.corners()) - 1};
-    record.clear({b.table});
-    record.run(weld, Length::counted(count), push, {record.counts(), keys, b.table, b.slots});
-    record.run("flag_firsts", Length::counted(count), count, {record.counts(), b.table, b.slots, b.firsts, b.flags});
-}
-
 void recordVertices(Recorder& record, const GatherRoom& room, const GatherBuffers& b) {
-    recordFirsts(record, "weld_corners", COUNT_SOUP_CORNERS, b.corners, room, b);
+    recordFirsts(record, "weld_corners", COUNT_SOUP_CORNERS, b.corners, {b.table, b.slots, b.firsts, b.flags});
     record.scan(Length::counted(COUNT_SOUP_CORNERS), b.flags, b.sums, b.vertex_numbers,
                 {{COUNT_MESH_VERTICES, NO_INDEX, NO_INDEX, NO_INDEX}, {room.vertices, 0, 0, 0}});
 }
@@ -43,7 +33,7 @@ void recordTriangles(Recorder& record, const GatherRoom& room, const GatherBuffe
 
 void recordEdges(Recorder& record, const GatherRoom& room, const GatherBuffers& b) {
     const Length sides = Length::counted(COUNT_MESH_CORNERS);
-    recordFirsts(record, "weld_sides", COUNT_MESH_CORNERS, b.sides, room, b);
+    recordFirsts(record, "weld_sides", COUNT_MESH_CORNERS, b.sides, {b.table, b.slots, b.firsts, b.flags});
     record.scan(sides, b.flags, b.sums, b.edge_numbers,
                 {{COUNT_MESH_EDGES, NO_INDEX, NO_INDEX, NO_INDEX}, {room.edges, 0, 0, 0}});
     record.run("write_edges", sides, engine::NoPush{},

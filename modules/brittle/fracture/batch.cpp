@@ -1,6 +1,7 @@
 #include "modules/brittle/fracture/batch.h"
 
 #include "modules/brittle/fracture/readback.h"
+#include "modules/brittle/fracture/wedges.h"
 #include "modules/brittle/mesh/vector_math.h"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ Result<void> addObject(Batch& batch, const BreakingObject& object, std::vector<B
     addVertices(batch, object.mesh, grid->scale / kTileScale, number);
     addSites(batch, *grid, local_sites, number);
     batch.capacity.add(estimateCapacities(object.mesh, object.topology, *grid, count));
+    batch.capacity.touching = batch.capacity.touching || touchesOnGrid(object.mesh, object.topology, *grid);
     return {};
 }
 

@@ -30,6 +30,7 @@ void recordFracture(const Event& e) {
     if (e.search == Search::SphereTree) recordSphereTree(e);
     recordCells(e);
     if (e.only_cells) return;
+    if (e.capacity.touching) recordWedges(e);
     recordClassification(e);
     recordClipping(e);
     recordPlaces(e);

@@ -59,6 +59,8 @@ void recordCutting(const Event& e);
 void recordCells(const Event& e);
 // relax_sites: one round, after which sites are welded and binned anew. Wants a placement.
 void recordRelaxation(const Event& e);
+// pair_wedges: where the surface may touch itself
+void recordWedges(const Event& e);
 // classify_triangles, clip_triangles
 void recordClassification(const Event& e);
 void recordClipping(const Event& e);

@@ -121,6 +121,18 @@ void takeSites(const Input& in, Taker& take) {
     b.loose_sites = take.words(c.sites);
 }
 
+// Of a closed surface half of the corners are more than there are vertices, or edges.
+void takeWedges(const Input& in, Taker& take) {
+    const Capacities& c = in.c;
+    EventBuffers& b = in.b;
+    const uint64_t sides = c.touching ? std::max<uint64_t>(3ull * c.triangles, c.vertices) : 0;
+    b.place_table = take.words(sides != 0 ? tableSize(sides / 2) : 0);
+    b.named_sides = take.words(2 * sides);
+    for (engine::BufferView* list :
+         {&b.place_slots, &b.place_flags, &b.first_vertices, &b.first_sides, &b.side_heads, &b.side_links, &b.open_wedges})
+        *list = take.words(sides);
+}
+
 void takeCells(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     EventBuffers& b = in.b;
@@ -289,7 +301,7 @@ uint64_t layOut(engine::ScratchArena& arena, const Capacities& c, const Triangle
     const engine::ScratchArena::Mark until_caps = arena.mark();
     takeDiagram(in, take);
     const engine::ScratchArena::Mark one_stage = arena.mark();
-    for (const auto stage : {takeSites, takeCells, takeClipping, takePlaces, takeDepth, takeCaps}) {
+    for (const auto stage : {takeSites, takeCells, takeWedges, takeClipping, takePlaces, takeDepth, takeCaps}) {
         stage(in, take);
         if (stage == takeSites && beside_sites) beside_sites(arena);
         if (!c.relaxed || stage != takeSites) arena.release(one_stage);

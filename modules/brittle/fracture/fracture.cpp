@@ -63,8 +63,7 @@ public:
         capacity = options.only_cells ? forCellsOnly(capacity) : withColliders(capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.relaxed = options.relax != 0;
-        prepared->wedges = wedgesOnGrid(mesh, topology, prepared->grid);
-        capacity.touching = !prepared->wedges.empty();
+        capacity.touching = touchesOnGrid(mesh, topology, prepared->grid);
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         auto attempt = tryUntilItFits(mesh, topology, options, *prepared, capacity);
@@ -85,7 +84,7 @@ public:
         Capacities capacity = withColliders(batch->capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.rare = met_.joined(capacity.rare);
-        const Prepared prepared = {batch->grid, {}, batch->sites, batch->vertex_tiles, {}};
+        const Prepared prepared = {batch->grid, {}, batch->sites, batch->vertex_tiles};
         auto attempt = tryUntilItFits(batch->mesh, batch->topology, how, prepared, capacity);
         if (!attempt) return attempt.error();
         attempt->result.setup_ms = millisecondsSince(start) - attempt->result.total_ms;
@@ -98,7 +97,6 @@ private:
         TriangleColumns columns;
         std::vector<Int3> sites;            // that are given, on the grid
         std::vector<uint32_t> vertex_tiles; // where there are several objects
-        std::vector<uint32_t> wedges;       // where the surface touches itself
     };
 
     engine::Result<void> checkOptions(const FractureOptions& options) const {
@@ -294,7 +292,6 @@ private:
         const KnownCounts known = knownCounts(mesh, topology, capacity.sites, capacity.bins, group_size_);
         known.addTo(upload, b.counts, b.args);
         addMesh(upload, mesh, topology, attributes, b);
-        upload.add(std::span(p.wedges), b.wedges);
         addSites(upload, p, placed, b);
         auto staging = upload.stage(device_);
         if (!staging) return staging.error();

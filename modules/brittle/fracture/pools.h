@@ -37,7 +37,7 @@ struct Capacities {
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
     bool tiled = false;         // of several objects
-    bool touching = false;      // the mesh has edges of more than two triangles, and `wedges` are uploaded
+    bool touching = false;      // surfaces may have edges of more than two triangles
     bool relaxed = false;       // sites are still moved when cells have been cut
     uint32_t emit_window = 0;   // triangles that one dispatch of `emit` can reach
     uint32_t source_window = 0; // mesh triangles whose corner attributes it can reach; 0: all
@@ -96,6 +96,8 @@ struct EventBuffers {
     // mesh
     std::vector<View> corner_attributes; // of so many mesh triangles each as Capacities::source_window says
     View mesh_positions, mesh_triangles, triangle_edges, mesh_edges, wedges, grid_vertices, vertex_tiles;
+    // wedges, where the surface touches itself
+    View place_table, place_slots, place_flags, first_vertices, named_sides, first_sides, side_heads, side_links, open_wedges;
     // sites
     View raw_sites, placed, column_start, column_triangles, columns, site_table, site_slots, welded_sites, site_flags,
         site_offsets;

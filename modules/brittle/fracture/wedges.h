@@ -1,13 +1,28 @@
-// Wedges of solid at edges where a surface touches itself, as the grid of an event has them.
+// Surfaces that touch themselves: more than two of their triangles meet at an edge, as the grid of an event has it.
 #pragma once
 
 #include "modules/brittle/fracture/event_grid.h"
 #include "modules/brittle/mesh/topology.h"
+#include "modules/brittle/mesh/welder.h"
 
 namespace brittle {
 
-// Returns for every half-edge at an edge of more than two triangles its wedge: the lower of the two half-edges that bound it.
-// Other half-edges get kNoMate. Vertices of one place on the grid are one vertex. Empty if the surface touches itself nowhere.
-std::vector<uint32_t> wedgesOnGrid(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid);
+// Vertices, one for each place on a grid, and the triangles that keep three places.
+class SnappedMesh {
+public:
+    explicit SnappedMesh(size_t vertices) : welder_(vertices) {}
+
+    void addVertex(const Int3& place);
+    void addTriangle(const Index3& corners);
+    bool hasLostVertices() const { return mesh_.positions.size() < places_.size(); }
+    bool touchesItself() const;
+
+private:
+    Mesh mesh_;
+    Welder welder_;
+    std::vector<uint32_t> places_; // of the vertices that were added, their numbers in the mesh
+};
+
+bool touchesOnGrid(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid);
 
 } // namespace brittle

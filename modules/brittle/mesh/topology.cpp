@@ -137,15 +137,4 @@ MeshTopology buildTopology(const Mesh& mesh) {
 
 bool touchesItself(const MeshTopology& topology) { return 2 * topology.edges.size() < topology.half_edge_mates.size(); }
 
-std::vector<uint32_t> wedgesOf(const MeshTopology& topology) {
-    std::vector<uint32_t> uses(topology.edges.size(), 0);
-    for (const Index3& edges : topology.triangle_edges)
-        for (const uint32_t edge : edges)
-            ++uses[edge];
-    std::vector<uint32_t> wedges(topology.half_edge_mates.size(), kNoMate);
-    for (uint32_t h = 0; h < wedges.size(); ++h)
-        if (uses[topology.triangle_edges[h / 3][h % 3]] > 2) wedges[h] = std::min(h, topology.half_edge_mates[h]);
-    return wedges;
-}
-
 } // namespace brittle

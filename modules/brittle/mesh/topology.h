@@ -14,8 +14,4 @@ MeshTopology buildTopology(const Mesh& mesh);
 // Returns whether a closed surface has edges of more than two triangles.
 bool touchesItself(const MeshTopology& topology);
 
-// Returns the wedge of solid of every half-edge at such an edge: the lower of the two half-edges that bound it. Other half-edges get
-// kNoMate.
-std::vector<uint32_t> wedgesOf(const MeshTopology& topology);
-
 } // namespace brittle
