@@ -1,8 +1,8 @@
-# unite_sources(TARGET... [ALONE name...]): with BRITTLE_UNITE, sources of one folder are compiled together, up to sixteen at a
+# unite_sources(TARGET... [ALONE name...]): with BRITTLE_UNITE, sources of one folder are compiled together, up to 32 at a
 # time, since most of the time of a compilation goes into headers. Other presets compile every source alone, so they find a missing
 # include. File-local names must differ within a folder; ALONE lists sources whose names do not. A source with a #define stays
 # alone, too. Call this in the CMakeLists.txt that the targets belong to, after their last source.
-set(BRITTLE_UNITED_SOURCES 16)
+set(BRITTLE_UNITED_SOURCES 32)
 
 # Sets `result` to the absolute paths of the target's sources that can be compiled together.
 function(sources_to_unite target alone result)

@@ -24,7 +24,7 @@ gpu::vec4 packed(const Point& p, float w) {
     return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), w};
 }
 
-Point momentsOf(const gpu::BodyShape& shape) {
+Point principalMoments(const gpu::BodyShape& shape) {
     return {1.0 / shape.inverse_inertia[0].x, 1.0 / shape.inverse_inertia[1].y, 1.0 / shape.inverse_inertia[2].z};
 }
 
@@ -67,7 +67,7 @@ private:
         const bool moves = state.offset.w != 0;
         const brittle::Pose pose = brittle::poseOf(state);
         btRigidBody::btRigidBodyConstructionInfo info(moves ? 1 / state.offset.w : 0, nullptr, shapes_.shapeOf(b),
-                                                      moves ? vectorOf(momentsOf(shape)) : btVector3(0, 0, 0));
+                                                      moves ? vectorOf(principalMoments(shape)) : btVector3(0, 0, 0));
         info.m_startWorldTransform = transformOf(pose.place, pose.turn) * transformOf(shapes_.middleOf(b), {0, 0, 0, 1});
         info.m_friction = settings_.friction ? std::sqrt(shape.inverse_inertia[0].w) : 0; // Bullet multiplies two
         info.m_restitution = settings_.restitution ? shape.inverse_inertia[1].w : 0;
@@ -99,7 +99,7 @@ private:
     }
 
     Point angularMomentumOf(size_t b, const Point& spin, const brittle::Turn& turn) const {
-        const Point moments = momentsOf(contents_.shapes[b]);
+        const Point moments = principalMoments(contents_.shapes[b]);
         Point own = brittle::turnedBack(turn, spin);
         for (size_t k = 0; k < 3; ++k)
             own[k] *= moments[k];

@@ -5,12 +5,12 @@
 #include "tests/support/body_overlaps.h"
 #include "tests/support/inset_hull.h"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace bench {
 namespace {
-
-using reference::operator-;
 
 constexpr double kMargin = 1e-3;                            // m
 constexpr double kMarginShare = 0.02;                       // of the thinnest piece
@@ -43,8 +43,10 @@ double BulletShapes::halfExtent(size_t body) const {
     for (uint32_t p = pieces.x; p < pieces.x + pieces.y; ++p)
         for (const Point& corner : cornersOf(p))
             bounds.grow(corner);
-    const Point size = bounds.upper - bounds.lower;
-    return std::min({size[0], size[1], size[2]}) / 2;
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < 3; ++k)
+        thinnest = std::min(thinnest, bounds.upper[k] - bounds.lower[k]);
+    return thinnest / 2;
 }
 
 std::vector<Point> BulletShapes::cornersOf(size_t piece) const { return support::pieceInWorld(contents_, piece, {}).vertices; }

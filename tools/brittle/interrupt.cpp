@@ -9,7 +9,7 @@ namespace cli {
 namespace {
 
 std::mutex begun_mutex;
-std::vector<std::filesystem::path> begun;        // named after this process, so that what is still there is ours
+std::vector<std::filesystem::path> begun_files;        // named after this process, so that what is still there is ours
 std::vector<std::filesystem::path> made_folders; // folders, the outermost first
 std::vector<std::function<void()>> actions;
 
@@ -43,11 +43,11 @@ std::vector<std::filesystem::path> missingFolders(const std::filesystem::path& p
     return missing;
 }
 
-// In order, so that what may just be written goes last. Nothing new is begun any more: the mutex stays locked.
+// In order, so that what may just be written goes last. Nothing new is begun_files any more: the mutex stays locked.
 void removeBegun() {
     begun_mutex.lock();
     std::error_code ignored;
-    for (const std::filesystem::path& path : begun)
+    for (const std::filesystem::path& path : begun_files)
         std::filesystem::remove(path, ignored);
     removeEmpty(made_folders);
 }
@@ -83,7 +83,7 @@ void whenInterrupted(std::function<void()> action) {
 engine::Result<brittle::OutputFile> createOutput(const std::filesystem::path& path) {
     const std::lock_guard lock(begun_mutex);
     auto file = brittle::OutputFile::create(path);
-    if (file) begun.push_back(file->temporaryPath());
+    if (file) begun_files.push_back(file->temporaryPath());
     return file;
 }
 
