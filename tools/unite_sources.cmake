@@ -1,7 +1,7 @@
-# unite_sources(TARGET... [ALONE name...]): with BRITTLE_UNITE, sources of one folder are compiled together, up to 32 at a
+# unite_sources(TARGET... [ACROSS_FOLDERS] [ALONE name...]): with BRITTLE_UNITE, sources of one folder are compiled together, up to 32 at a
 # time, since most of the time of a compilation goes into headers. Other presets compile every source alone, so they find a missing
-# include. File-local names must differ within a folder; ALONE lists sources whose names do not. A source with a #define stays
-# alone, too. Call this in the CMakeLists.txt that the targets belong to, after their last source.
+# include. File-local names must differ within a folder, or ACROSS_FOLDERS of a target; ALONE lists sources whose names do not. A
+# source with a #define stays alone, too. Call this in the CMakeLists.txt that the targets belong to, after their last source.
 set(BRITTLE_UNITED_SOURCES 32)
 
 # Sets `result` to the absolute paths of the target's sources that can be compiled together.
@@ -34,11 +34,14 @@ function(group_sources folder)
     endforeach()
 endfunction()
 
-function(unite_target target alone)
+function(unite_target target alone across_folders)
     sources_to_unite(${target} "${alone}" sources)
     set(folders "")
     foreach(source ${sources})
-        get_filename_component(folder ${source} DIRECTORY)
+        set(folder ${PROJECT_SOURCE_DIR}/${target})
+        if(NOT across_folders)
+            get_filename_component(folder ${source} DIRECTORY)
+        endif()
         list(APPEND folders ${folder})
         list(APPEND sources_of_${folder} ${source})
     endforeach()
@@ -50,10 +53,10 @@ function(unite_target target alone)
 endfunction()
 
 function(unite_sources)
-    cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "ALONE")
+    cmake_parse_arguments(PARSE_ARGV 0 arg "ACROSS_FOLDERS" "" "ALONE")
     foreach(target ${arg_UNPARSED_ARGUMENTS})
         if(BRITTLE_UNITE AND TARGET ${target})
-            unite_target(${target} "${arg_ALONE}")
+            unite_target(${target} "${arg_ALONE}" ${arg_ACROSS_FOLDERS})
         endif()
     endforeach()
 endfunction()

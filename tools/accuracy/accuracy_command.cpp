@@ -66,7 +66,7 @@ int measureAnew(const AccuracyOptions& options) {
 
 int runAccuracy(const AccuracyOptions& options) { return options.from.empty() ? measureAnew(options) : rewritePage(options); }
 
-constexpr const char* kFooter =
+constexpr const char* kAccuracyFooter =
     "Examples:\n"
     "  brittle accuracy --quick -o out/accuracy\n"
     "  brittle accuracy vase.stl rock.obj -o out/accuracy\n"
@@ -82,7 +82,7 @@ constexpr const char* kFooter =
 
 void addAccuracy(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("accuracy", "Measure what accuracy costs in time, and show it on a page.");
-    command->footer(kFooter);
+    command->footer(kAccuracyFooter);
     auto options = std::make_shared<AccuracyOptions>();
     CLI::Option* models = command->add_option("MODEL", options->sweep.models, std::string("to break besides: ") + kModelHelp);
     CLI::Option* quick = command->add_flag("--quick", options->sweep.is_quick,

@@ -1,6 +1,6 @@
 #include "tools/accuracy/machine.h"
 
-#include "tools/accuracy/version.h"
+#include "tools/accuracy/program_version.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -54,9 +54,10 @@ Machine describeMachine(const engine::Device& device) {
     machine.system = systemName();
     machine.device = device.name();
     machine.driver = device.driver();
-    machine.compiler = BRITTLE_COMPILER;
-    machine.brittle = BRITTLE_VERSION;
-    machine.commit = BRITTLE_COMMIT;
+    const ProgramVersion program = programVersion();
+    machine.compiler = program.compiler;
+    machine.brittle = program.version;
+    machine.commit = program.commit;
     machine.date = today();
     machine.cores = std::thread::hardware_concurrency();
     machine.memory_gib = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / kGib;

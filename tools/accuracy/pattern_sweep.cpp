@@ -19,7 +19,7 @@ const ErrorKind kSizes = {"sizes",
                           "volumes of inner cells against those of even sites, largest difference of the distributions",
                           "share", "the gamma law that Ferenc and Neda (2007) found for three dimensions"};
 
-const ErrorKind kCrowding = {
+const ErrorKind kCrowdingError = {
     "crowding", "distances of sites from the hit against those of a real one, largest difference of the distributions", "share",
     "the fourth power of the distance, by which the density of a hit's cracks falls outside the contact"};
 
@@ -162,7 +162,7 @@ FractureCase crowdingCase(brittle::PreparedMesh model, bool is_quick) {
     FractureCase one = patternCase(std::move(model), is_quick);
     one.workload.name = "cube_hit";
     one.workload.what = "The same cube under a blow so strong that it draws every site to it";
-    one.workload.kinds = {kCrowding.name};
+    one.workload.kinds = {kCrowdingError.name};
     one.base.pattern = Pattern::Impact;
     one.base.impact.favor = 1;
     one.settings = crowdingSettings();
@@ -184,7 +184,7 @@ Result<void> sweepPlaces(Sweep& sweep, const FractureCase& one) {
 Result<void> sweepCrowding(Sweep& sweep, const FractureCase& one) {
     FractureMeasures measures;
     measures.errors = [](const FractureResult& result, const brittle::FractureOptions&) {
-        return std::vector<MeasuredError>{errorOf(kCrowding, distancesOf(result))};
+        return std::vector<MeasuredError>{errorOf(kCrowdingError, distancesOf(result))};
     };
     return measureCase(sweep, one, measures);
 }
@@ -192,7 +192,7 @@ Result<void> sweepCrowding(Sweep& sweep, const FractureCase& one) {
 } // namespace
 
 Result<void> sweepPatterns(Sweep& sweep) {
-    for (const ErrorKind& kind : {kPlaces, kSizes, kCrowding})
+    for (const ErrorKind& kind : {kPlaces, kSizes, kCrowdingError})
         addKind(sweep.results, kind);
     auto model = soundModel("builtin:cube");
     if (!model) return model.error();

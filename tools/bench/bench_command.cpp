@@ -201,7 +201,7 @@ int runBench(Options options) {
     return report ? write(*report, *file) : fail(report.error());
 }
 
-constexpr const char* kFooter = "Voro++, CGAL and Bullet run alternately with us, on one thread, where the build has them\n"
+constexpr const char* kBenchFooter = "Voro++, CGAL and Bullet run alternately with us, on one thread, where the build has them\n"
                                 "(tools/bench.sh builds all). Times are medians, in milliseconds; of piles, which run\n"
                                 "once, they are means over all steps.";
 
@@ -239,7 +239,7 @@ void addBreakingOptions(CLI::App& command, Options& options) {
 void addBench(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("bench", "Measure cells, whole shatters and rigid bodies, next to Voro++, CGAL and Bullet.");
-    command->footer(kFooter);
+    command->footer(kBenchFooter);
     auto options = std::make_shared<Options>();
     command->add_option("-o,--output", options->output, "the JSON file to write, instead of standard output");
     command->add_option("--rounds", options->bench.rounds, "how often each is measured")

@@ -208,7 +208,7 @@ int runCompare(const CompareOptions& options) {
     return options.record.empty() ? runComparison(options) : runRecording(options);
 }
 
-constexpr const char* kFooter =
+constexpr const char* kCompareFooter =
     "Examples:\n"
     "  brittle compare --device 0 --device 1 stack_10\n"
     "  brittle compare --device nvidia --device llvmpipe hull_pile_100 --steps 120 --whole --json\n"
@@ -251,7 +251,7 @@ void addFileOptions(CLI::App& command, CompareOptions& options) {
 void addCompare(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("compare", "Step a scene on two devices and say which kernel is the first to compute other values.");
-    command->footer(kFooter);
+    command->footer(kCompareFooter);
     auto options = std::make_shared<CompareOptions>();
     addComparisonOptions(*command, *options);
     command->add_flag("--json", options->as_json, "print one JSON object");

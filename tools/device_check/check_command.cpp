@@ -1,6 +1,6 @@
 // brittle check-device: its options, and the parts of a check in order.
 #include "engine/device.h"
-#include "tools/accuracy/version.h"
+#include "tools/accuracy/program_version.h"
 #include "tools/brittle/command.h"
 #include "tools/brittle/interrupt.h"
 #include "tools/brittle/progress.h"
@@ -78,7 +78,10 @@ bool isWanted(const Options& options, const Part& part) {
     return options.parts.empty() || std::ranges::find(options.parts, part.name) != options.parts.end();
 }
 
-Json aboutProgram() { return {{"version", BRITTLE_VERSION}, {"commit", BRITTLE_COMMIT}, {"compiler", BRITTLE_COMPILER}}; }
+Json aboutProgram() {
+    const accuracy::ProgramVersion program = accuracy::programVersion();
+    return {{"version", program.version}, {"commit", program.commit}, {"compiler", program.compiler}};
+}
 
 constexpr double kWholeCheck = 340, kWorthGoingOn = 10, kLongestWork = 3600; // s
 
@@ -266,7 +269,7 @@ std::vector<std::string> partNames() {
     return names;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "Examples:\n"
     "  brittle check-device -o out/check\n"
     "  brittle check-device --parts models scenes -o out/check\n"
@@ -279,7 +282,7 @@ constexpr const char* kFooter =
 void addCheckDevice(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("check-device", "Check a device: facts, tests, fragments, scenes, times; at most six minutes.");
-    command->footer(kFooter);
+    command->footer(kCheckFooter);
     auto options = std::make_shared<Options>();
     command->add_option("-o,--output", options->output, "the folder for the results; else the kit's")
         ->take_last()

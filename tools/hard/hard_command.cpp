@@ -147,7 +147,7 @@ int runHard(const HardOptions& options) {
     return all_hold ? kOk : kInternalError;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kHardFooter =
     "Examples:\n"
     "  brittle hard\n"
     "  brittle hard --only plate\n"
@@ -172,7 +172,7 @@ constexpr const char* kFooter =
 
 void addHard(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("hard", "Run every hard case at every precision, and show what holds.");
-    command->footer(kFooter);
+    command->footer(kHardFooter);
     auto options = std::make_shared<HardOptions>();
     command->add_option("--only", options->run.only, "the cases whose name has this in it")
         ->option_text("TEXT")
