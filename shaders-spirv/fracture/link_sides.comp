@@ -7,8 +7,8 @@ FLAT_KERNEL;
 READS(0, uint, counts);
 READS(1, uvec2, sides);
 READS(2, uint, first_sides);
-UPDATES(3, uint, heads); // side + 1; 0: none
-WRITES(4, uint, links);  // likewise, to the next
+UPDATES(3, uint, heads); // side + 1; 0: no side
+WRITES(4, uint, links);  // to the next side, as in heads
 WRITES(5, uint, wedges);
 
 void main() {

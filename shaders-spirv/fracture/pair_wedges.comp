@@ -16,7 +16,7 @@ READS(4, uint, first_sides);
 READS(5, uint, first_vertices);
 READS(6, uint, heads);
 UPDATES(7, uint, links); // side + 1; 0: none
-UPDATES(8, uint, below); // likewise, in the stack of wedges that have begun
+UPDATES(8, uint, below); // in the stack of wedges that have begun, as in links
 WRITES(9, uint, wedges); // the lower of the two sides that bound it; NO_INDEX where two triangles meet only
 
 Edge edge;
@@ -67,7 +67,7 @@ uint sorted(uint unsorted) {
     return head;
 }
 
-// Makes the list a ring, and returns a side that does not lie on the one before it; 0: there is none.
+// Makes the list a ring, and returns a side that does not lie on the one before it, or 0.
 uint beginningOf(uint head, uint count) {
     uint at = head, beginning = 0u;
     for (uint turn = 0u; turn < count; turn++) {

@@ -37,7 +37,7 @@ Wide128 alignmentOf(Edge e, ivec3 a, ivec3 b) {
     return wideSub(wideMul(dotOf(e.way, e.way), dotOf(a, b)), wideMul(dotOf(e.way, a), dotOf(e.way, b)));
 }
 
-// Whether the angle is half a turn or more.
+// Returns whether the angle is half a turn or more.
 bool isInSecondHalf(Edge e, ivec3 arm) {
     int side = wideSign(turnFrom(e, e.zero, arm));
     return side < 0 || (side == 0 && wideSign(alignmentOf(e, e.zero, arm)) < 0);
@@ -72,7 +72,7 @@ float squareOf(Cross c) {
     return sum;
 }
 
-// Whether the angle between two arms is no more than a touch makes of it at the ends of both: |e| ra rb sin(angle) against
+// Returns whether one arm lies on the other but for a touch at the end of each. |e| ra rb sin(angle) is held against
 // (ra + rb) |e| kTouch, where |e| r is the length of e x arm.
 bool liesOn(Edge e, ivec3 a, ivec3 b) {
     a = isAlong(e, a) ? e.zero : a;

@@ -13,7 +13,7 @@ struct FirstsBuffers {
     engine::BufferView firsts, flags; // out, a word for each: the first that is the same, and 1 for those that are the first
 };
 
-// `weld`: the kernel that says which are the same, by the words of `keys`. `count` tells how many there are.
+// `weld`: the kernel that says which are the same, by the words of `keys`. `count` holds the number of elements.
 inline void recordFirsts(Recorder& record, std::string_view weld, uint32_t count, engine::BufferView keys,
                          const FirstsBuffers& b) {
     struct Push {
