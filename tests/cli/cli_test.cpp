@@ -367,7 +367,7 @@ TEST_F(Cli, DoctorSaysWhereEverythingIs) {
     EXPECT_EQ(report["sound"], false);
     for (const char* key : {"problems", "vertices", "triangles", "volume", "area", "diagonal", "center", "notes",
                             "reader_notes", "edges", "crossings", "slivers", "nonmanifold_edges_at", "nonmanifold_vertices_at",
-                            "inconsistent_edges_at", "duplicate_triangles_at"})
+                            "inconsistent_edges_at", "folds_at", "duplicate_triangles_at"})
         EXPECT_TRUE(report.contains(key)) << key;
     ASSERT_EQ(report["holes"].size(), 1u);
     EXPECT_EQ(report["holes"][0]["edges"], 4);

@@ -119,3 +119,12 @@ TEST(Diagnosis, AgreesWithTheCatalogue) {
         EXPECT_EQ(edges, found.report.open_edges);
     }
 }
+
+// An arrowhead that is cut into triangles from its notch, and from a tip.
+TEST(Diagnosis, NamesEdgesAtWhichAFaceLiesOnItsNeighbor) {
+    EXPECT_TRUE(diagnose(fanPrism({{1, 0}, {3, 1}, {0, 0}, {3, -1}}, 1)).folds.empty());
+    const MeshDiagnosis found = diagnose(fanPrism({{3, -1}, {1, 0}, {3, 1}, {0, 0}}, 1));
+    EXPECT_TRUE(found.report.isSound());
+    EXPECT_EQ(found.folds, (std::vector<Double3>{{3, 0, 0}, {3, 0, 1}}));
+    EXPECT_TRUE(diagnose(makeBumpySphere(4)).folds.empty());
+}

@@ -84,6 +84,7 @@ void printFaults(const MeshDiagnosis& found) {
     places("edges", "where the surface turns over", found.inconsistent_edges);
     places("vertices", "where sheets touch that share no edge there", found.nonmanifold_vertices);
     places("triangles", "doubled", found.duplicates);
+    places("folds", "edges at which a face lies on its neighbor", found.folds);
     rows("slivers", found.slivers, [](const MeshDiagnosis::Sliver& sliver) {
         const bool is_flat = !std::isfinite(sliver.aspect);
         return (is_flat ? "no area" : formatNumber(sliver.aspect) + " times as long as high") + ", at " +
@@ -150,6 +151,7 @@ void addPlaces(nlohmann::ordered_json& json, const MeshDiagnosis& found) {
     json["nonmanifold_edges_at"] = found.nonmanifold_edges;
     json["nonmanifold_vertices_at"] = found.nonmanifold_vertices;
     json["inconsistent_edges_at"] = found.inconsistent_edges;
+    json["folds_at"] = found.folds;
     json["duplicate_triangles_at"] = found.duplicates;
 }
 

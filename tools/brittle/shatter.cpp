@@ -2,6 +2,8 @@
 
 #include "modules/brittle/collision/collider_mesh.h"
 #include "modules/brittle/export/glb.h"
+#include "modules/brittle/mesh/folds.h"
+#include "modules/brittle/mesh/format.h"
 #include "tools/brittle/drop.h"
 #include "tools/brittle/interrupt.h"
 #include "tools/brittle/model.h"
@@ -231,9 +233,14 @@ engine::Result<brittle::FractureResult> Run::breakAsWished(brittle::Fracture& fr
 engine::Error Run::brokenContract(const std::string& violation) const {
     const brittle::MeshMeasures& m = outcome_.model.measures;
     const bool rounded = options_.precision != brittle::Precision::Exact, convex = options_.caps == brittle::Caps::Convex;
+    const auto folds = brittle::findFolds(model_->mesh, model_->topology, brittle::kTouchDepth * m.diagonal);
     std::string advice = "move the sites a little, and please report it";
     if (m.volume < kThin * m.area * m.diagonal)
         advice = "a model as thin as this must lie along the axes, for floats to hold it";
+    if (!folds.empty())
+        advice =
+            "at " + brittle::formatCount(static_cast<uint64_t>(folds.size()), "edge") +
+            " a face of the model lies on its neighbor (`brittle doctor` has the places): cut the faces into triangles anew";
     if (convex) advice = "the model is not convex where it was cut: use --caps exact";
     if (rounded) advice = convex ? "use --precision exact and --caps exact" : "use --precision exact";
     return {rounded || convex ? engine::ErrorCode::BadInput : engine::ErrorCode::Internal,

@@ -1,6 +1,7 @@
 #include "modules/brittle/mesh/diagnosis.h"
 
 #include "modules/brittle/mesh/boundary.h"
+#include "modules/brittle/mesh/folds.h"
 #include "modules/brittle/mesh/repair/orientation.h"
 #include "modules/brittle/mesh/topology.h"
 #include "modules/brittle/mesh/triangle_shape.h"
@@ -23,6 +24,7 @@ private:
     void listTriangles();
     void listDuplicates();
     void listCrossings();
+    void listFolds();
     void countParts();
     void countFans();
     void countRims();
@@ -50,7 +52,15 @@ MeshDiagnosis Diagnostician::run() {
     listTriangles();
     listDuplicates();
     listCrossings();
+    listFolds();
     return std::move(found_);
+}
+
+void Diagnostician::listFolds() {
+    for (const uint32_t edge : findFolds(mesh_, topology_, kTouchDepth * found_.report.measures.diagonal)) {
+        const auto& [a, b] = topology_.edges[edge];
+        found_.folds.push_back(place(middleOfEdge(mesh_, a, b)));
+    }
 }
 
 void Diagnostician::countParts() {

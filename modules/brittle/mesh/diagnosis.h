@@ -46,6 +46,7 @@ struct MeshDiagnosis {
     std::vector<Double3> nonmanifold_vertices; // where sheets meet that share no edge there
     std::vector<Double3> inconsistent_edges;   // two triangles that disagree on the front
     std::vector<Double3> duplicates;           // triangles with the corners of an earlier one
+    std::vector<Double3> folds;                // edges at which a face lies on its neighbor
 };
 
 MeshDiagnosis diagnoseMesh(const Mesh& mesh, const MeshTopology& topology);
