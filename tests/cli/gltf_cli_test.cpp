@@ -40,6 +40,21 @@ TEST_F(GltfCli, ShatterPrintsNotesOfTheReaderOnStandardError) {
     EXPECT_NE(run.err.find("cube.glb: note: " + note_ + "\n"), std::string::npos) << run.err;
 }
 
+// A scene that has the model as a mesh, as a hull and as a collider.
+TEST_F(GltfCli, ScenesPrintNotesOfTheReaderOnce) {
+    cubeWithANote();
+    for (const char* kind : {"mesh", "hull"}) {
+        const std::string shape = std::string("shape = \"") + kind + "\"\nfile = \"cube.glb\"\n", cells = shape + "sites = 4\n";
+        std::ofstream(path("scene.toml")) << "[[body]]\nplace = [0, 3, 0]\n"
+                                          << cells << "[[body]]\nplace = [9, 3, 0]\n"
+                                          << cells << "[[collider]]\n"
+                                          << shape;
+        const Outcome run = runProgram("brittle", {"plan", path("scene.toml")});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err, "brittle: cube.glb: note: " + note_ + "\n") << kind;
+    }
+}
+
 TEST_F(GltfCli, AnExtensionThatIsNotReadIsRefusedInOneLine) {
     support::GltfBuilder builder = support::cubeFile();
     builder.json["extensionsRequired"] = {"ACME_curved_triangles"};

@@ -91,16 +91,16 @@ TEST(SurfacePlaces, PartsGrowWithTheLargestSurface) {
 TEST(SurfaceList, PartsFollowEachOtherWithoutAGap) {
     const engine::Buffer buffer = *engine::Buffer::create(engine_test::device(), 96 * 150, engine::BufferDomain::Device);
     const brittle::SurfaceList list(engine::BufferView(buffer), 64);
-    ASSERT_EQ(list.parts(), 3u);
+    ASSERT_EQ(list.partCount(), 3u);
     uint32_t end = 0;
-    for (uint32_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(list.part(k).range.first, end);
-        EXPECT_EQ(list.part(k).vertices.offset, 32 * end);
-        end = list.part(k).range.end;
-        EXPECT_EQ(list.part(k).vertices.offset + list.part(k).vertices.size, 32 * end);
+    for (const brittle::SurfacePart& part : list.parts()) {
+        EXPECT_EQ(part.range.first, end);
+        EXPECT_EQ(part.vertices.offset, 32 * end);
+        end = part.range.end;
+        EXPECT_EQ(part.vertices.offset + part.vertices.size, 32 * end);
     }
     EXPECT_EQ(end, 450u);
-    EXPECT_EQ(brittle::SurfaceList(engine::BufferView(buffer)).parts(), 1u);
+    EXPECT_EQ(brittle::SurfaceList(engine::BufferView(buffer)).partCount(), 1u);
 }
 
 // A pane that breaks in rays, boxes that break otherwise, and a ball that does not break. All break again when they land.

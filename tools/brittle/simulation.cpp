@@ -146,6 +146,9 @@ Result<StagedScene> stageScene(engine::Device& device, brittle::SceneDescription
                                         staging.has_surfaces ? &staged.surfaces : nullptr);
     if (!contents) return Error{contents.error().code, staged.scene.name + ": " + contents.error().message};
     staged.contents = std::move(*contents);
+    if (!staged.contents.reader_notes.empty()) clearProgress();
+    for (const std::string& note : staged.contents.reader_notes)
+        std::fprintf(stderr, "brittle: %s\n", note.c_str());
     return staged;
 }
 

@@ -21,8 +21,7 @@ void recordAdoption(Recorder& record, const BrokenParts& parts, const BreakableW
                       parts.colliders.records, parts.colliders.faces, parts.colliders.vertices, parts.colliders.corners,
                       world.hulls.records, world.hulls.vertices, world.hulls.faces, world.hulls.corners, world.hulls.edges,
                       world.pieces, world.shapes});
-    for (uint32_t k = 0; k < world.surfaces.parts(); ++k) {
-        const SurfacePart part = world.surfaces.part(k);
+    for (const SurfacePart& part : world.surfaces.parts()) {
         record.runGroups("adopt_surfaces", groups, part.range,
                          {record.counts(), parts.fragments, parts.sites, parts.breaking, parts.rooms, parts.vertices,
                           part.vertices, world.breakable});

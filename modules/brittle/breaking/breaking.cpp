@@ -194,8 +194,7 @@ private:
 
     // How far it is to the rim of what breaks in rays.
     void recordReach(const Step& s, const Strikes* strikes) const {
-        for (uint32_t k = 0; k < surfaces().parts(); ++k) {
-            const SurfacePart part = surfaces().part(k);
+        for (const SurfacePart& part : surfaces().parts()) {
             const uint32_t push[] = {part.range.first, part.range.end, room_.step_triangles};
             const auto& world = s.record.counts();
             if (strikes != nullptr)

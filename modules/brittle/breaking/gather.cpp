@@ -23,8 +23,7 @@ void recordTriangles(Recorder& record, const GatherRoom& room, const GatherBuffe
                 true);
     record.run("write_vertices", Length::counted(COUNT_SOUP_CORNERS), room.triangles,
                {record.counts(), b.corners, b.vertex_numbers, b.mesh_positions, b.grid_vertices, record.args()});
-    for (uint32_t k = 0; k < surfaces.parts(); ++k) {
-        const SurfacePart part = surfaces.part(k);
+    for (const SurfacePart& part : surfaces.parts()) {
         record.run("write_triangles", triangles, part.range,
                    {record.counts(), breaking, part.vertices, b.firsts, b.vertex_numbers, b.triangle_numbers, b.mesh_triangles,
                     b.corner_attributes, b.sides});
@@ -79,8 +78,7 @@ GatherBuffers layOutGather(engine::ScratchArena& arena, const GatherRoom& room) 
 void recordGather(Recorder& record, const GatherRoom& room, const GatherBuffers& b, engine::BufferView breaking,
                   const SurfaceList& surfaces) {
     record.commands().beginLabel("gather");
-    for (uint32_t k = 0; k < surfaces.parts(); ++k) {
-        const SurfacePart part = surfaces.part(k);
+    for (const SurfacePart& part : surfaces.parts()) {
         record.run("gather_corners", Length::counted(COUNT_SOUP_CORNERS), part.range,
                    {record.counts(), breaking, part.vertices, b.corners});
     }

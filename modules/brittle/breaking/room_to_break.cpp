@@ -15,7 +15,7 @@ namespace {
 using engine::Error, engine::ErrorCode;
 
 constexpr uint32_t kFragments = 1024, kMostUsualFragments = 8192, kFacesOfOne = 24, kTrianglesOfOne = 96;
-constexpr uint32_t kUsualForEach = 4, kMostKeptForEach = 8; // fragments
+constexpr uint32_t kUsualForEach = 4, kMostKeptForEach = 32; // fragments
 constexpr uint32_t kStepBodies = 16, kStepTriangles = 8192, kStepSites = 512, kFragmentsOfOne = 256, kParticles = 16384;
 constexpr uint64_t kMostUsualTriangles = 4ull * (kUsualPart - 1); // 96 bytes each: half a gigabyte
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace brittle {
 
@@ -27,13 +28,19 @@ struct SurfaceList {
     SurfaceList(engine::BufferView all, uint32_t triangles_of_part = 0) : vertices(all), part_triangles(triangles_of_part) {}
 
     uint32_t vertexCount() const { return static_cast<uint32_t>(vertices.size / sizeof(FragmentVertex)); }
-    uint32_t parts() const { return part_triangles == 0 ? 1 : (std::max(vertexCount(), 1u) - 1) / (3 * part_triangles) + 1; }
-    SurfacePart part(uint32_t k) const {
-        const uint32_t first = 3 * part_triangles * k;
-        const uint32_t end = k + 1 == parts() ? vertexCount() : first + 3 * part_triangles;
+    uint32_t partCount() const {
+        return part_triangles == 0 ? 1 : (std::max(vertexCount(), 1u) - 1) / (3 * part_triangles) + 1;
+    }
+    std::vector<SurfacePart> parts() const {
         constexpr uint64_t kBytes = sizeof(FragmentVertex);
-        return {vertices.sub(kBytes * first, k + 1 == parts() ? vertices.size - kBytes * first : kBytes * (end - first)),
-                {first, end}};
+        std::vector<SurfacePart> list;
+        for (uint32_t k = 0; k < partCount(); ++k) {
+            const bool is_last = k + 1 == partCount();
+            const uint32_t first = 3 * part_triangles * k, end = is_last ? vertexCount() : first + 3 * part_triangles;
+            const uint64_t bytes = is_last ? vertices.size - kBytes * first : kBytes * (end - first);
+            list.push_back({vertices.sub(kBytes * first, bytes), {first, end}});
+        }
+        return list;
     }
 };
 

@@ -71,7 +71,9 @@ Result<ImportedMesh> modelOf(const ShapeDescription& shape, const std::filesyste
     if (shape.kind != ShapeKind::Mesh) {
         const auto hull = hullOf(shape, folder);
         if (!hull) return hull.error();
-        return meshOf(hull->hull);
+        ImportedMesh mesh = meshOf(hull->hull);
+        mesh.notes = hull->reader_notes;
+        return mesh;
     }
     return readModel(shape, folder);
 }
@@ -79,6 +81,7 @@ Result<ImportedMesh> modelOf(const ShapeDescription& shape, const std::filesyste
 struct Cells {
     PreparedMesh model; // what was broken
     FragmentSet fragments;
+    std::vector<std::string> reader_notes;
 };
 
 Result<Cells> cellsOf(const ShapeDescription& shape, const std::filesystem::path& folder, Fracture& fracture) {
@@ -97,7 +100,7 @@ Result<Cells> cellsOf(const ShapeDescription& shape, const std::filesystem::path
     options.collider = shape.cells.directions;
     auto broken = fracture.shatter(mesh->mesh, mesh->topology, options);
     if (!broken) return broken.error();
-    return Cells{std::move(*mesh), std::move(broken->fragments)};
+    return Cells{std::move(*mesh), std::move(broken->fragments), std::move(model->notes)};
 }
 
 double volumeOf(const FragmentSet& set) {
@@ -214,6 +217,7 @@ private:
     Result<void> addCollider(const ColliderDescription& d, const std::string& name);
     Result<void> addPlane(const ColliderDescription& d, BodyDefinition body);
     Result<void> addSurface(const ColliderDescription& d, BodyDefinition body);
+    void keepNotes(const ShapeDescription& shape, const std::vector<std::string>& notes);
     // Of a body whose material is known.
     double weigh(const BodyDescription& d, double volume) const { return massOf(d, *densityOf(d, scene_.materials), volume); }
     // `surface` is only made where surfaces are asked for.
@@ -268,13 +272,23 @@ Result<void> ContentsMaker::addDescribed(const BodyDescription& d, const std::st
         return Error{ErrorCode::Internal, "body \"" + name + "\" has cells, and there is nothing to cut them with"};
     const auto cells = cellsOf(d.shape, folder_, *fracture_);
     if (!cells) return Error{cells.error().code, "body \"" + name + "\": " + cells.error().message};
+    keepNotes(d.shape, cells->reader_notes);
     const FragmentSet& set = cells->fragments;
     return d.shape.cells.broken ? addBroken(d, name, set, set.center) : addCompound(d, name, *cells);
+}
+
+void ContentsMaker::keepNotes(const ShapeDescription& shape, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        const std::string text = shape.file + ": note: " + note;
+        if (std::ranges::find(contents_.reader_notes, text) == contents_.reader_notes.end())
+            contents_.reader_notes.push_back(text);
+    }
 }
 
 Result<void> ContentsMaker::addWhole(const BodyDescription& d, const std::string& name) {
     const auto hull = hullOf(d.shape, folder_);
     if (!hull) return Error{hull.error().code, "body \"" + name + "\": " + hull.error().message};
+    keepNotes(d.shape, hull->reader_notes);
     const HullMeasures& measures = hull->measures;
     BodyDefinition body = bodyOf(d, name);
     body.pieces = {pieceOf(hull->hull, measures.center)};
@@ -338,6 +352,7 @@ Result<void> ContentsMaker::addCollider(const ColliderDescription& d, const std:
     if (d.shape.kind == ShapeKind::Mesh) return addSurface(d, std::move(body));
     const auto hull = hullOf(d.shape, folder_);
     if (!hull) return Error{hull.error().code, "collider \"" + name + "\": " + hull.error().message};
+    keepNotes(d.shape, hull->reader_notes);
     body.pieces = {pieceOf(hull->hull, {0, 0, 0})};
     return add(body, [&] { return surfaceOf(hull->hull, {0, 0, 0}); });
 }
@@ -352,6 +367,7 @@ Result<void> ContentsMaker::addPlane(const ColliderDescription& d, BodyDefinitio
 Result<void> ContentsMaker::addSurface(const ColliderDescription& d, BodyDefinition body) {
     const auto model = modelOf(d.shape, folder_);
     if (!model) return Error{model.error().code, "collider \"" + body.name + "\": " + model.error().message};
+    keepNotes(d.shape, model->notes);
     body.pieces = piecesOf(*model);
     if (body.pieces.empty())
         return Error{ErrorCode::BadInput, "collider \"" + body.name + "\": no triangle of " +

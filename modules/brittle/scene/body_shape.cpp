@@ -21,6 +21,7 @@ engine::Result<PointHull> hullOfHull(const ShapeDescription& shape, const std::f
     if (!model) return model.error();
     auto hull = hullOfPoints(model->positions);
     if (!hull) return engine::Error{hull.error().code, shape.file + ": " + hull.error().message};
+    hull->reader_notes = model->notes;
     return hull;
 }
 

@@ -56,6 +56,7 @@ struct PointHull {
     ConvexHull hull;
     HullMeasures measures; // of the points' own hull, also where `hull` is a looser one
     HullNotes notes;
+    std::vector<std::string> reader_notes; // of a file's hull: what its reader left out
 };
 
 // The hull of any number of points, with at most kMaxHullFaces faces and kMaxHullVertices vertices. One that has more is
