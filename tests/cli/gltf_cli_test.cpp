@@ -43,11 +43,12 @@ TEST_F(GltfCli, ShatterPrintsNotesOfTheReaderOnStandardError) {
 // A scene that has the model as a mesh, as a hull and as a collider.
 TEST_F(GltfCli, ScenesPrintNotesOfTheReaderOnce) {
     cubeWithANote();
-    for (const char* kind : {"mesh", "hull"}) {
-        const std::string shape = std::string("shape = \"") + kind + "\"\nfile = \"cube.glb\"\n", cells = shape + "sites = 4\n";
+    for (const std::string kind : {"mesh", "hull"}) {
+        const std::string shape = "shape = \"" + kind + "\"\nfile = \"cube.glb\"\n",
+                          body = shape + (kind == "mesh" ? "sites = 4\n" : "");
         std::ofstream(path("scene.toml")) << "[[body]]\nplace = [0, 3, 0]\n"
-                                          << cells << "[[body]]\nplace = [9, 3, 0]\n"
-                                          << cells << "[[collider]]\n"
+                                          << body << "[[body]]\nplace = [9, 3, 0]\n"
+                                          << body << "[[collider]]\n"
                                           << shape;
         const Outcome run = runProgram("brittle", {"plan", path("scene.toml")});
         EXPECT_EQ(run.exit_code, 0) << run.err;
