@@ -359,7 +359,7 @@ typedef struct BrittleColliderDef {
 BRITTLE_API BrittleBodyDef brittleDefaultBodyDef(void);
 BRITTLE_API BrittleColliderDef brittleDefaultColliderDef(void);
 /* Before the start. Errors: WRONG_ORDER after it; BAD_VALUE; BAD_MESH for an open mesh; WRONG_HANDLE and STALE_HANDLE of mesh
- * and material as well. */
+ * and material as well; CAPACITY for a mesh that breaks and has more triangles than the device has room for. */
 BRITTLE_API BrittleResult brittleAddBody(BrittleContext* context, BrittleWorld world, const BrittleBodyDef* def,
                                          BrittleBody* body);
 BRITTLE_API BrittleResult brittleAddCollider(BrittleContext* context, BrittleWorld world, const BrittleColliderDef* def,

@@ -1,6 +1,7 @@
 #include "modules/brittle/abi/boundary.h"
 #include "modules/brittle/abi/conversions.h"
 #include "modules/brittle/abi/field_names.h"
+#include "modules/brittle/breaking/breaking.h"
 #include "modules/brittle/dynamics/scene_settings.h"
 #include "modules/brittle/scene/check_scene.h"
 
@@ -19,6 +20,18 @@ void checkCollider(const brittle::ColliderDescription& collider) {
     SceneDescription scene;
     scene.colliders = {collider};
     checkWith(scene);
+}
+
+// A body that can break, and has more triangles than a device has room for, is refused when it is added.
+void checkRoomToBreak(engine::Device& device, const HostedWorld& world, const brittle::BodyDescription& body) {
+    const auto effects = brittle::resolve(world.scene.effects);
+    const bool breaks = effects && effects->set.has(brittle::Effect::ImpactFracture) && !body.material.empty();
+    if (!breaks || !body.shape.model) return;
+    const auto triangles = static_cast<uint32_t>(body.shape.model->triangles.size());
+    const auto room = brittle::canBreak(device, triangles, brittle::budgetOf(world.scene).breaking);
+    if (!room)
+        throw Refusal(BRITTLE_CAPACITY, "body " + std::to_string(world.bodyCount()) +
+                                            (body.name.empty() ? "" : " \"" + body.name + "\"") + ": " + room.error().message);
 }
 
 } // namespace
@@ -52,6 +65,7 @@ BrittleResult brittleAddBody(BrittleContext* context, BrittleWorld world, const 
         w.mustNotRun();
         auto described = bodyOf(c, w, d);
         orRefuseFields(brittle::checkBody(described, w.scene.bodies.size(), w.scene.materials));
+        checkRoomToBreak(*c.device, w, described);
         w.scene.bodies.push_back(std::move(described));
         out = w.bodyId(w.bodyCount() - 1, 0);
     });

@@ -30,14 +30,32 @@ constexpr float kForEver = 3e38f;
 constexpr uint32_t kOwnerBits = 8; // of the numbers of objects that break at once
 static_assert(MOST_BREAKING == 1 << kOwnerBits);
 
+BreakingRoom eventRoomOf(const RoomToBreak& room) {
+    return {roomFor(room.step_bodies, room.step_triangles), room.step_sites, room.most_fragments, room.touching};
+}
+
+std::string largestBody(const WorldContents& contents) {
+    const auto trianglesOf = [](const gpu::BreakableBody& body) { return body.surface.y + body.surface.z; };
+    const auto largest = std::ranges::max_element(contents.breakable, {}, trianglesOf);
+    return contents.names[static_cast<size_t>(largest - contents.breakable.begin())];
+}
+
+// Bytes of the largest list of an event.
+Result<uint64_t> largestListOf(Device& device, const RoomToBreak& room) {
+    BreakingEvent event = planBreaking(device, GROUP_SIZE, eventRoomOf(room), kDirections);
+    auto plan = engine::ScratchArena::create(device, 256, "plan");
+    if (!plan) return plan.error();
+    layOutBreaking(*plan, event);
+    return std::max<uint64_t>(plan->largest(), uint64_t{event.capacity.emitted} * 3 * sizeof(FragmentVertex));
+}
+
 class DeviceBreaking final : public Breaking {
 public:
     DeviceBreaking(Device& device, const RoomToBreak& room, const StepSettings& settings)
         : device_(device), room_(room), settings_(settings), effects_(effectsOf(settings)) {}
 
     Result<void> make(const WorldContents& contents, uint32_t pairs, uint32_t group_size) {
-        const BreakingRoom event = {gatherRoomFor(), room_.step_sites, room_.most_fragments, room_.touching};
-        event_ = planBreaking(device_, group_size, event, kDirections);
+        event_ = planBreaking(device_, group_size, eventRoomOf(room_), kDirections);
         sizes_ = {pairs, static_cast<uint32_t>(contents.bodies.size()), event_.capacity.fragments};
         // More fragments than that, and objects stay whole for want of room.
         room_.pools.requests = std::min<uint32_t>(event_.capacity.fragments, POOL_MOST_REQUESTS);
@@ -185,8 +203,6 @@ private:
                      {world, s.now.contacts, s.b.bodies, l_.breakable, p_.soonest, p_.blows, p_.hardest});
     }
 
-    GatherRoom gatherRoomFor() const { return roomFor(room_.step_bodies, room_.step_triangles); }
-
     SurfaceList surfaces() const {
         return {l_.surface_vertices, room_.surfaces.parts() > 1 ? room_.surfaces.part_triangles : 0};
     }
@@ -323,9 +339,9 @@ private:
                      "what breaks in a step needs a list of " + std::to_string(bytes) + " bytes, the device can bind " +
                          std::to_string(most) + "; the budgets are " + std::to_string(room_.step_triangles) +
                          " triangles and " + std::to_string(room_.step_sites) + " sites of all that breaks in a step, and " +
-                         std::to_string(room_.surfaces.capacity) +
-                         " triangles of all surfaces; the largest body that breaks has " +
-                         std::to_string(largestSurface(contents)) + " triangles: lower the budgets, or simplify the body"};
+                         std::to_string(room_.surfaces.capacity) + " triangles of all surfaces; body \"" +
+                         largestBody(contents) + "\" has the most triangles, " + std::to_string(largestSurface(contents)) +
+                         ": lower the budgets, or simplify the body"};
     }
 
     Result<void> fill(const WorldContents& contents) {
@@ -359,7 +375,33 @@ private:
     std::unique_ptr<Debris> debris_;
 };
 
+// The most triangles of a body that breaks.
+Result<uint32_t> mostTriangles(Device& device, const BreakingBudget& budget) {
+    uint32_t fits = 0, too_many = 1u << 24;
+    while (too_many - fits > 1) {
+        const uint32_t middle = fits + (too_many - fits) / 2;
+        const auto list = largestListOf(device, roomInAStep(middle, budget));
+        if (!list) return list.error();
+        (*list <= device.limits().maxStorageBufferRange ? fits : too_many) = middle;
+    }
+    return fits;
+}
+
 } // namespace
+
+Result<void> canBreak(Device& device, uint32_t triangles, const BreakingBudget& budget) {
+    if (budget.step_triangles != 0) return {};
+    const auto list = largestListOf(device, roomInAStep(triangles, budget));
+    if (!list) return list.error();
+    if (*list <= device.limits().maxStorageBufferRange) return {};
+    const auto most = mostTriangles(device, budget);
+    if (!most) return most.error();
+    return Error{ErrorCode::Capacity,
+                 "a surface of " + std::to_string(triangles) + " triangles: what breaks in a step needs a list of " +
+                     std::to_string(*list) + " bytes, and the device can bind " +
+                     std::to_string(device.limits().maxStorageBufferRange) + ", enough for " + std::to_string(*most) +
+                     " triangles; simplify the body, or give it no material so that it does not break"};
+}
 
 Result<std::unique_ptr<Breaking>> Breaking::create(Device& device, const WorldContents& contents, const RoomToBreak& room,
                                                    const StepSettings& settings, const WorldSizes& world, uint32_t group_size) {

@@ -109,8 +109,17 @@ uint32_t largestSurface(const WorldContents& contents) {
     return most;
 }
 
-engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget) {
+RoomToBreak roomInAStep(uint32_t largest_surface, const BreakingBudget& budget) {
     RoomToBreak room;
+    room.step_bodies = std::min<uint32_t>(chosen(budget.step_bodies, kStepBodies), MOST_BREAKING);
+    room.step_triangles = chosen(budget.step_triangles, usualStepTriangles(largest_surface));
+    room.step_sites = chosen(budget.step_sites, kStepSites);
+    room.most_fragments = std::min(chosen(budget.most_fragments, kFragmentsOfOne), room.step_sites);
+    return room;
+}
+
+engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const BreakingBudget& budget) {
+    RoomToBreak room = roomInAStep(largestSurface(contents), budget);
     // What cannot break needs no room.
     const auto breaks = [](const gpu::BreakableBody& body) { return body.surface.w != NO_INDEX; };
     const auto breakable = static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
@@ -120,10 +129,6 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     room.radial = std::ranges::any_of(contents.breakable, breaksInRays);
     room.kept_for_each = std::min(kMostKeptForEach, fragments / (2 * std::max(breakable, 1u)));
     room.kept_for_whole = fragments / 2;
-    room.step_bodies = std::min<uint32_t>(chosen(budget.step_bodies, kStepBodies), MOST_BREAKING);
-    room.step_triangles = chosen(budget.step_triangles, usualStepTriangles(largestSurface(contents)));
-    room.step_sites = chosen(budget.step_sites, kStepSites);
-    room.most_fragments = std::min(chosen(budget.most_fragments, kFragmentsOfOne), room.step_sites);
     if (room.most_fragments < 2)
         return Error{ErrorCode::BadInput,
                      std::string("a budget of one ") +
