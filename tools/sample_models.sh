@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tools/sample_models.sh PROGRAM FOLDER...: reads every model under the folders with PROGRAM (brittle) and prints a table of
 # outcomes per folder, then each refusal with its reason. A reader that crashes or takes longer than 20 s is an error.
-# Packages with samples: assimp-testmodels, openscad-testing-data.
+# Packages with samples: assimp-testmodels, openscad-testing-data, and of npm @webxr-input-profiles/assets.
 set -uo pipefail
 
 usage() {
