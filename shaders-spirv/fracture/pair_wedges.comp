@@ -17,7 +17,7 @@ READS(5, uint, first_vertices);
 READS(6, uint, heads);
 UPDATES(7, uint, links); // side + 1; 0: none
 UPDATES(8, uint, below); // in the stack of wedges that have begun, as in links
-WRITES(9, uint, wedges); // the lower of the two sides that bound it; NO_INDEX where two triangles meet only
+UPDATES(9, uint, wedges); // the lower of the two sides that bound it; NO_INDEX until it is known, and where two triangles meet only
 
 Edge edge;
 
@@ -120,39 +120,46 @@ void pair(uint a, uint b) {
     wedges[b] = min(a, b);
 }
 
-// The second turn closes what the first left open. What has no counterpart is a wedge of its own.
+// The second turn around the edge ends what the first left open.
 void match(uint first, uint count) {
     uint top = 0u, at = first;
     for (uint turn = 0u; turn < 2u * count; turn++) {
         uint s = at - 1u;
-        bool is_first_turn = turn < count, begins = opens(s);
-        if (is_first_turn) wedges[s] = s;
-        if (is_first_turn && begins) {
+        bool begins = opens(s), is_open = wedges[s] == NO_INDEX;
+        if (begins && turn < count) {
             below[s] = top;
             top = at;
         }
-        bool is_open = is_first_turn || below[s] == NO_INDEX;
-        if (!begins && is_open) {
-            below[s] = top == 0u ? NO_INDEX : 0u;
-            if (top != 0u) {
-                uint mate = top - 1u;
-                top = below[mate];
-                pair(s, mate);
-            }
+        if (!begins && is_open && top != 0u) {
+            uint mate = top - 1u;
+            top = below[mate];
+            pair(s, mate);
         }
         at = links[s];
+    }
+}
+
+// A side without a counterpart is a wedge of its own.
+void leaveAlone(uint first, uint count) {
+    uint at = first;
+    for (uint turn = 0u; turn < count; turn++) {
+        if (wedges[at - 1u] == NO_INDEX) wedges[at - 1u] = at - 1u;
+        at = links[at - 1u];
     }
 }
 
 void main() {
     uint s = flatIndex();
     if (s >= counts[COUNT_MESH_CORNERS] || counts[STATUS_FAILED] != 0u) return;
-    uint head = heads[s];
+    uint head = heads[s]; // of an edge that more than two triangles have
     if (head == 0u || first_sides[s] != s || links[head - 1u] == 0u || links[links[head - 1u] - 1u] == 0u) return;
     edge = edgeFrom(grid_vertices[sides[s].x].xyz, grid_vertices[sides[s].y].xyz);
     uint count, zero = zeroOf(head, count);
     if (zero == NO_INDEX || count > MOST_AROUND_EDGE) return;
     edge.zero = armOf(zero);
     uint beginning = beginningOf(sorted(head), count);
-    if (beginning != 0u) match(endsFirst(beginning, count), count);
+    if (beginning == 0u) return;
+    uint first = endsFirst(beginning, count);
+    match(first, count);
+    leaveAlone(first, count);
 }
