@@ -17,7 +17,7 @@ READS(5, uint, first_vertices);
 READS(6, uint, heads);
 UPDATES(7, uint, links); // side + 1; 0: none
 UPDATES(8, uint, below); // in the stack of wedges that have begun, as in links
-UPDATES(9, uint, wedges); // the lower of the two sides that bound it; NO_INDEX until it is known, and where two triangles meet only
+UPDATES(9, uint, wedges); // the lower of the two sides that bound it
 
 Edge edge;
 
@@ -120,6 +120,14 @@ void pair(uint a, uint b) {
     wedges[b] = min(a, b);
 }
 
+void forget(uint first, uint count) {
+    uint at = first;
+    for (uint turn = 0u; turn < count; turn++) {
+        wedges[at - 1u] = NO_INDEX;
+        at = links[at - 1u];
+    }
+}
+
 // The second turn around the edge ends what the first left open.
 void match(uint first, uint count) {
     uint top = 0u, at = first;
@@ -160,6 +168,7 @@ void main() {
     uint beginning = beginningOf(sorted(head), count);
     if (beginning == 0u) return;
     uint first = endsFirst(beginning, count);
+    forget(first, count);
     match(first, count);
     leaveAlone(first, count);
 }

@@ -1,18 +1,20 @@
-// Islands of a model whose surface touches itself along edges: the same as unite_triangles, but at such an edge only triangles that
-// bound the same wedge of solid are one piece. Runs twice. The second time, edges without a wedge join all that lie there: those
-// of caps, and those that met because a triangle without area was dropped.
+// Islands of surfaces that touch themselves along edges: the same as unite_triangles, but at such an edge only triangles that bound the
+// same wedge of solid are one piece. Edges of the mesh that merely lie on each other, with other ends, are different wedges. Runs
+// twice. The second time, sides that have found no partner join all that lie there: those of caps, and those that met because a
+// triangle without area was dropped.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
 
 layout(constant_id = 0) const uint kSecond = 0u;
+const uint PAIRED = 0x80000000u;
 FLAT_KERNEL;
 UPDATES(0, uint, counts);
 READS(1, uvec4, pieces);
 layout(set = 0, binding = 2, std430) coherent buffer parents_block { uint parents[]; };
-UPDATES(3, uint, edge_table); // 3 triangle + edge + 1; 0: free
+UPDATES(3, uint, edge_table); // 3 triangle + edge + 1, with PAIRED for sides that have a partner; 0: free
 READS(4, uint, sources);
-READS(5, uint, wedges);       // of half-edges of the mesh; NO_INDEX where two triangles meet only
+READS(5, uint, wedges);       // of sides of the mesh's triangles
 READS(6, uvec4, polygon_offsets);
 READS(7, uint, polygon_sides);
 layout(push_constant) uniform Push { uint table_mask; };
@@ -60,12 +62,28 @@ uint hashOf(uvec4 key) {
     return hash ^ (hash >> 13);
 }
 
+uint sideIn(uint held) { return (held & ~PAIRED) - 1u; }
+
 bool insert(uint t, uint k, uvec4 key) {
     uint hash = hashOf(key);
     for (uint probe = 0u; probe < 1024u; probe++) {
-        uint held = atomicCompSwap(edge_table[(hash + probe) & table_mask], 0u, 3u * t + k + 1u);
+        uint at = (hash + probe) & table_mask, held = atomicCompSwap(edge_table[at], 0u, 3u * t + k + 1u);
         if (held == 0u) return true;
-        if (edgeKey((held - 1u) / 3u, (held - 1u) % 3u) == key) return unite((held - 1u) / 3u, t);
+        uint side = sideIn(held);
+        if (edgeKey(side / 3u, side % 3u) != key) continue;
+        atomicOr(edge_table[at], PAIRED);
+        return unite(side / 3u, t);
+    }
+    return false;
+}
+
+bool hasPartner(uvec4 key) {
+    uint hash = hashOf(key);
+    for (uint probe = 0u; probe < 1024u; probe++) {
+        uint held = edge_table[(hash + probe) & table_mask];
+        if (held == 0u) return false;
+        uint side = sideIn(held);
+        if (edgeKey(side / 3u, side % 3u) == key) return (held & PAIRED) != 0u;
     }
     return false;
 }
@@ -75,8 +93,8 @@ bool joinAll(uint t, uvec4 key) {
     for (uint probe = 0u; probe < 1024u; probe++) {
         uint held = edge_table[(hash + probe) & table_mask];
         if (held == 0u) return true;
-        uint other = (held - 1u) / 3u;
-        if (edgeKey(other, (held - 1u) % 3u).xyz == key.xyz && !unite(other, t)) return false;
+        uint side = sideIn(held);
+        if (edgeKey(side / 3u, side % 3u).xyz == key.xyz && !unite(side / 3u, t)) return false;
     }
     return false;
 }
@@ -88,7 +106,7 @@ void main() {
     for (uint k = 0u; k < 3u; k++) {
         uvec4 key = edgeKey(t, k);
         if (kSecond == 0u) settled = insert(t, k, key) && settled;
-        else if (key.w == NO_INDEX) settled = joinAll(t, key) && settled;
+        else if (key.w == NO_INDEX || !hasPartner(key)) settled = joinAll(t, key) && settled;
     }
     if (!settled) atomicAdd(counts[STATUS_BAD_UNION], 1u);
 }

@@ -1,5 +1,6 @@
 // Solids that touch only along edges or corners come apart: no fragment holds parts of two of them.
 #include "modules/brittle/mesh/primitives.h"
+#include "modules/brittle/mesh/topology.h"
 #include "tests/module/whole_fracture.h"
 #include "tests/support/solids.h"
 
@@ -90,4 +91,23 @@ TEST(TouchingIslands, OfBlocksCornerToCornerThatAreTurned) {
             p = {static_cast<float>(c * p[0] - s * p[2]), static_cast<float>(p[1]), static_cast<float>(s * p[0] + c * p[2])};
         EXPECT_EQ(fragmentsOf(row, {{0.1, 0.2, 0.3}}), 5u) << turn;
     }
+}
+
+// Their edges lie on each other in part: no vertex of one is a vertex of the other.
+TEST(TouchingIslands, OfBlocksWhoseEdgesHaveOtherEnds) {
+    const brittle::ImportedMesh cube = brittle::makeCube();
+    const brittle::ImportedMesh pair = cube + moved(cube, 1, {1, 1, 0.5}),
+                                four = pair + moved(cube, 1, {1, 0, 2.1}) + moved(cube, 1, {0, 1, -2.3});
+    for (uint32_t seed = 1; seed <= 8; ++seed)
+        for (const brittle::ImportedMesh* solid : {&pair, &four}) {
+            brittle::FractureOptions options;
+            options.site_count = 150;
+            options.seed = seed;
+            const Model model = modelFrom(*solid);
+            const auto result = fracture().shatter(model.prepared.mesh, model.prepared.topology, options);
+            ASSERT_TRUE(result) << result.error().message;
+            expectContract(model, *result);
+            for (size_t f = 0; f < result->fragments.fragments.size(); ++f)
+                EXPECT_FALSE(brittle::touchesItself(modelFrom(result->fragments, f).prepared.topology)) << seed << ", " << f;
+        }
 }

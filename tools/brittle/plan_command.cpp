@@ -84,7 +84,7 @@ constexpr const char* kPlanFooter =
     "Examples:\n"
     "  brittle plan card_house\n"
     "  brittle plan hull_pile_100 --measure\n"
-    "  brittle plan tower.toml --json\n"
+    "  brittle plan window_pane --json\n"
     "\n"
     "A pass that comes again in every substep is one line, where it comes first, and its time is that of all of them. Effects\n"
     "that a scene does not call for have no passes and no bytes.";

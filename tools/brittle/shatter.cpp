@@ -243,7 +243,7 @@ engine::Error Run::brokenContract(const std::string& violation) const {
             " a face of the model lies on its neighbor (`brittle doctor` has the places): cut the faces into triangles anew";
     if (convex) advice = "the model is not convex where it was cut: use --caps exact";
     if (rounded) advice = convex ? "use --precision exact and --caps exact" : "use --precision exact";
-    return {rounded || convex ? engine::ErrorCode::BadInput : engine::ErrorCode::Internal,
+    return {rounded || convex || !folds.empty() ? engine::ErrorCode::BadInput : engine::ErrorCode::Internal,
             "the fragments break their contract: " + violation + "; nothing was written; " + advice};
 }
 

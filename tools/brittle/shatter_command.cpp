@@ -100,7 +100,7 @@ constexpr const char* kShatterFooter =
     "Examples:\n"
     "  brittle shatter vase.obj -o pieces.glb --sites 200 --seed 7 --verify\n"
     "  brittle shatter builtin:ring -o ring.glb --picture ring.png --explode 0.3\n"
-    "  brittle shatter rock.obj -o pieces.glb --sites-file sites.txt --json\n"
+    "  brittle shatter rock.obj -o pieces.glb --sites-file rock_sites.txt --json\n"
     "  brittle shatter vase.obj -o pieces.glb --sites 80 --at 0,0.1,0.3 --strength 5\n"
     "  brittle shatter vase.obj -o pieces.glb --collider 26 --collider-picture hulls.png --explode 0.3\n"
     "  brittle shatter vase.obj -o fall.glb --sites 60 --drop 0.5\n"

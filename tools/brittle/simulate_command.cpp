@@ -125,7 +125,7 @@ constexpr const char* kSimulateFooter =
     "Examples:\n"
     "  brittle simulate card_house -o house.glb\n"
     "  brittle simulate hull_pile_100 -o pile.mp4 --fps 30\n"
-    "  brittle simulate tower.toml -o tower.png --seconds 2\n"
+    "  brittle simulate window_pane -o pane.png --seconds 0.35\n"
     "  brittle simulate hard_01_block_500 --json\n"
     "  brittle simulate stack_10 --state-hash\n"
     "\n"

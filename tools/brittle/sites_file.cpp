@@ -1,6 +1,7 @@
 #include "tools/brittle/sites_file.h"
 
 #include "modules/brittle/mesh/text_reader.h"
+#include "tools/brittle/example_files.h"
 
 #include <cmath>
 #include <filesystem>
@@ -15,7 +16,9 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 } // namespace
 
-engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& path) {
+engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& name) {
+    const std::filesystem::path example = std::filesystem::exists(name) ? std::filesystem::path() : exampleFile(name);
+    const std::string path = example.empty() ? name : example.string();
     const auto bad = [&](const std::string& message) {
         return engine::Error{engine::ErrorCode::BadInput, path + ": " + message};
     };

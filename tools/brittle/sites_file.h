@@ -9,7 +9,8 @@
 
 namespace cli {
 
-// Text, one site a line as `x y z` in model space, # begins a comment. BadInput, with the line, for anything else.
-engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& path);
+// Reads text with one site a line, `x y z` in model space; # begins a comment. `name`: a file, or an example. Errors: BadInput, with
+// the line.
+engine::Result<std::vector<brittle::Double3>> readSitesFile(const std::string& name);
 
 } // namespace cli

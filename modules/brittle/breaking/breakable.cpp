@@ -50,7 +50,7 @@ Extent addTriangles(std::vector<FragmentVertex>& pool, const SurfaceMesh& surfac
 }
 
 // On the grid that breaking/admit_breaking.comp chooses.
-bool touchesItself(const SurfaceMesh& surface, const Extent& extent) {
+bool mayTouchItself(const SurfaceMesh& surface, const Extent& extent) {
     float half_size = 0;
     for (size_t k = 0; k < 3; ++k)
         half_size = std::max(half_size, 0.5f * (extent.high[k] - extent.low[k]));
@@ -65,7 +65,7 @@ bool touchesItself(const SurfaceMesh& surface, const Extent& extent) {
     }
     for (uint32_t k = 0; k + 2 < surface.indices.size(); k += 3)
         snapped.addTriangle({k, k + 1, k + 2});
-    return snapped.touchesItself();
+    return snapped.mayTouchItself();
 }
 
 } // namespace
@@ -84,7 +84,7 @@ Result<void> makeBreakable(WorldContents& contents, const BreakableDefinition& d
     gpu::BreakableBody& body = contents.breakable[d.body];
     const auto first = static_cast<uint32_t>(contents.surface_vertices.size());
     const Extent extent = addTriangles(contents.surface_vertices, d.surface);
-    contents.some_surface_touches_itself = contents.some_surface_touches_itself || touchesItself(d.surface, extent);
+    contents.some_surface_may_touch_itself = contents.some_surface_may_touch_itself || mayTouchItself(d.surface, extent);
     const uint32_t own = d.surface.outer_index_count, other = static_cast<uint32_t>(d.surface.indices.size()) - own;
     const Turn axes = axesOf(d.definition);
     body.surface = {first, own, other, cardIndex(contents, d.material)};

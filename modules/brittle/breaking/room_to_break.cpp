@@ -125,7 +125,7 @@ engine::Result<RoomToBreak> roomToBreak(const WorldContents& contents, const Bre
     const auto breakable = static_cast<uint32_t>(std::ranges::count_if(contents.breakable, breaks));
     const uint32_t fragments = chosen(budget.fragments, std::clamp(kUsualForEach * breakable, kFragments, kMostUsualFragments));
     room.whole = breakable;
-    room.touching = contents.some_surface_touches_itself;
+    room.touching = contents.some_surface_may_touch_itself;
     room.radial = std::ranges::any_of(contents.breakable, breaksInRays);
     room.kept_for_each = std::min(kMostKeptForEach, fragments / (2 * std::max(breakable, 1u)));
     room.kept_for_whole = fragments / 2;

@@ -28,7 +28,7 @@ struct RoomToBreak {
     uint32_t kept_for_each = 0;       // fragments, for each body of the scene that has not broken yet
     uint32_t kept_for_whole = 0;      // fragments, for all of them together, by fragments that break again
     bool radial = false;              // some body breaks in rays
-    bool touching = false;            // some surface touches itself
+    bool touching = false;            // some surface may touch itself
     SurfacePlaces surfaces;
     PoolRoom pools;
     FreeLists free; // before anything breaks

@@ -24,7 +24,7 @@ WorldContents inOrder(const WorldContents& contents, const BodyOrder& order) {
     sorted.siblings = contents.siblings;
     sorted.cards = contents.cards;
     sorted.surface_vertices = contents.surface_vertices;
-    sorted.some_surface_touches_itself = contents.some_surface_touches_itself;
+    sorted.some_surface_may_touch_itself = contents.some_surface_may_touch_itself;
     std::vector<uint32_t> piece_now(contents.pieces.size());
     for (uint32_t k = 0; k < order.piece_at.size(); k++)
         piece_now[order.piece_at[k]] = k;

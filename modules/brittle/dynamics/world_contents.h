@@ -62,7 +62,7 @@ struct WorldContents {
     std::vector<gpu::BreakableBody> breakable;
     std::vector<gpu::MaterialCard> cards;
     std::vector<FragmentVertex> surface_vertices; // three a triangle
-    bool some_surface_touches_itself = false;     // more than two of its triangles meet at an edge
+    bool some_surface_may_touch_itself = false;   // along an edge
     std::vector<std::string> reader_notes; // what readers of models left out, each once, with the file's name
     // Of what does not break, by body, to be drawn by (drawing/drawing.h); none where nobody draws.
     std::vector<gpu::BodyLook> looks;

@@ -85,13 +85,18 @@ static void frame(const BrittleVulkan* vulkan, VkCommandPool pool, BrittleWorld 
 
 static uint32_t tellBreaks(BrittleWorld world) {
     BrittleBreak breaks[16];
-    uint32_t count = 0;
+    uint32_t count = 0, broken = 0;
     must(brittleGetBreaks(context, world, breaks, COUNT(breaks), &count));
-    for (uint32_t k = 0; k < count; k++)
-        printf("step %u: %s at %.2f m/s, %u fragments, %.3f J of cracks\n", breaks[k].step,
-               breaks[k].hit_by.id != 0 ? "hit" : "struck by hand", breaks[k].speed, breaks[k].fragments,
-               breaks[k].crack_energy);
-    return count;
+    for (uint32_t k = 0; k < count; k++) {
+        const BrittleBreak* b = &breaks[k];
+        printf("step %u: %s at %.2f m/s: ", b->step, b->hit_by.id != 0 ? "hit" : "struck by hand", b->speed);
+        if (b->outcome == BRITTLE_BROKE)
+            printf("%u fragments, %u cells too small for bodies, %.3f J of cracks\n", b->fragments, b->dust_cells, b->crack_energy);
+        else
+            printf("stays whole\n");
+        broken += b->outcome == BRITTLE_BROKE;
+    }
+    return broken;
 }
 
 int main(void) {

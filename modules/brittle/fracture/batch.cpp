@@ -88,7 +88,7 @@ Result<void> addObject(Batch& batch, const BreakingObject& object, std::vector<B
     addVertices(batch, object.mesh, grid->scale / kTileScale, number);
     addSites(batch, *grid, local_sites, number);
     batch.capacity.add(estimateCapacities(object.mesh, object.topology, *grid, count));
-    batch.capacity.touching = batch.capacity.touching || touchesOnGrid(object.mesh, object.topology, *grid);
+    batch.capacity.touching = batch.capacity.touching || mayTouchOnGrid(object.mesh, object.topology, *grid);
     return {};
 }
 

@@ -63,7 +63,7 @@ public:
         capacity = options.only_cells ? forCellsOnly(capacity) : withColliders(capacity, options.collider);
         if (options.caps == Caps::Convex) capacity.nodes = 0;
         capacity.relaxed = options.relax != 0;
-        capacity.touching = touchesOnGrid(mesh, topology, prepared->grid);
+        capacity.touching = mayTouchOnGrid(mesh, topology, prepared->grid);
         capacity.sphere_tree = searchOf(options, prepared->grid) == Search::SphereTree;
         capacity.rare = met_.joined(capacity.rare);
         auto attempt = tryUntilItFits(mesh, topology, options, *prepared, capacity);

@@ -1,4 +1,5 @@
-// Surfaces that touch themselves: more than two of their triangles meet at an edge, as the grid of an event has it.
+// Surfaces that may touch themselves along edges, as the grid of an event has it: more than two triangles meet at an edge, or there are
+// several parts, whose edges may lie on each other.
 #pragma once
 
 #include "modules/brittle/fracture/event_grid.h"
@@ -15,7 +16,7 @@ public:
     void addVertex(const Int3& place);
     void addTriangle(const Index3& corners);
     bool hasLostVertices() const { return mesh_.positions.size() < places_.size(); }
-    bool touchesItself() const;
+    bool mayTouchItself() const;
 
 private:
     Mesh mesh_;
@@ -23,6 +24,6 @@ private:
     std::vector<uint32_t> places_; // of the vertices that were added, their numbers in the mesh
 };
 
-bool touchesOnGrid(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid);
+bool mayTouchOnGrid(const Mesh& mesh, const MeshTopology& topology, const EventGrid& grid);
 
 } // namespace brittle
