@@ -47,6 +47,9 @@ std::vector<Variant> objVariants() {
         {"PositionZero", ".obj", kCorners + replaced(kFaces, " 4", " 0"),
          "line 6: a face refers to a vertex that is not there"},
         {"PositionBeyond", ".obj", kTetrahedron + "f 1 2 5", "line 9: a face refers to a vertex that is not there"},
+        {"CapitalV", ".obj", replaced(kTetrahedron, "v ", "V "),
+         "lines that are not OBJ are left out: 4 lines (first in line 1)"},
+        {"ZeroByte", ".obj", kCorners + std::string(1, '\0') + kFaces, "line 5: binary data where OBJ text was expected"},
         {"DecimalIndex", ".obj", kCorners + replaced(kFaces, " 4", " 4.0"), "line 6: a face holds something that is not"},
         // Order.
         {"NegativeIndices", ".obj", kCorners + "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n"},

@@ -35,6 +35,7 @@ private:
     bool hasToWait() const;
     void noteUnread(std::string_view kind, size_t line);
     Statement nextStatement();
+    engine::Error refusal(size_t line, const char* wrong) const;
     engine::Error withoutFaces() const;
     void writeNotes(ImportedMesh& mesh) const;
 
@@ -54,15 +55,21 @@ private:
 engine::Result<ImportedMesh> ObjReader::run() {
     while (!text_.atEnd()) {
         const Statement statement = nextStatement();
-        if (const char* wrong = readLine(statement)) return badLine(statement.line, wrong);
+        if (const char* wrong = readLine(statement)) return refusal(statement.line, wrong);
     }
     is_at_end_ = true;
     for (const Statement& statement : waiting_)
-        if (const char* wrong = readLine(statement)) return badLine(statement.line, wrong);
+        if (const char* wrong = readLine(statement)) return refusal(statement.line, wrong);
     if (mesh_.triangleCount() == 0) return withoutFaces();
     ImportedMesh mesh = mesh_.take();
     writeNotes(mesh);
     return mesh;
+}
+
+// What was left out before may be the reason.
+engine::Error ObjReader::refusal(size_t line, const char* wrong) const {
+    const bool is_all_obj = unknown_.count() == 0;
+    return badLine(line, wrong + (is_all_obj ? "" : "; lines that are not OBJ are left out: " + unknown_.described("line")));
 }
 
 engine::Error ObjReader::withoutFaces() const {

@@ -31,9 +31,11 @@ std::string_view withoutPadding(std::string_view bytes) {
 
 engine::Result<void> checkIsText(std::string_view bytes, const char* format) {
     if (isUtf16(bytes)) return badInput(kUtf16);
-    if (!looksBinary(bytes)) return {};
-    return badInput(std::string("binary data where ") + format +
-                    " text was expected; give the file the ending of its real format");
+    const size_t zero = bytes.find('\0');
+    if (zero == bytes.npos) return {};
+    return badLine(static_cast<size_t>(std::ranges::count(bytes.substr(0, zero), '\n')) + 1,
+                   std::string("binary data where ") + format +
+                       " text was expected; give the file the ending of its real format");
 }
 
 std::string oneLine(std::string text) {
