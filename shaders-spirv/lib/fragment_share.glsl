@@ -3,6 +3,8 @@
 // of the budget to such bodies. Wants what admit_breaking declares.
 #include "shared/pool.h"
 
+const uint kMostOfEven = 8u; // even shares, that one of many bodies may take
+
 shared uint whole_bodies;            // of the scene that can break and have not
 shared uint limit_of[MOST_BREAKING]; // fragments, of those listed; at most most_fragments
 
@@ -21,7 +23,9 @@ uint shareFor(bool whole, uint left, uint others) {
     if (!whole && others != 0u) kept = max(kept, kept_for_whole);
     uint open = left - min(left, kept);
     if (!whole) return open / 4u;
-    return others == 0u ? open : min(left, max(open / 2u, kept_for_each));
+    if (others == 0u) return open;
+    uint even = left / (others + 1u), fair = even < open ? kMostOfEven * even : open;
+    return min(left, max(min(open / 2u, fair), kept_for_each));
 }
 
 // In order, by one lane: what one takes the next has not.
