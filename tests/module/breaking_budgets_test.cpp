@@ -179,6 +179,29 @@ TEST(BreakingBudgets, AFineMeshBreaksWithoutBudgetsOfItsOwn) {
     EXPECT_NEAR(massOf(presentBodies(*world)), mass, 1e-5 * mass);
 }
 
+// An even share of 800 fragments is 8 for each of a hundred balls.
+TEST(BreakingBudgets, OneOfManyBodiesTakesAtMostEightEvenShares) {
+    std::vector<BodyDescription> balls;
+    for (int k = 0; k < 100; ++k) {
+        balls.push_back(ball({0.5 * (k % 10), 0.2, 0.5 * (k / 10)}, "glass"));
+        balls.back().velocity = {0, -9, 0};
+    }
+    brittle::WorldBudget budget;
+    budget.breaking.fragments = 800;
+    const auto world = worldOf(sceneOf(balls), budget);
+    step(*world, 12);
+    const auto told = world->breaks();
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->events.size(), 100u);
+    uint32_t most = 0;
+    for (const gpu::BreakEvent& event : told->events) {
+        EXPECT_EQ(event.made.y, 0u);
+        most = std::max(most, event.made.x);
+    }
+    EXPECT_LE(most, 64u);
+    EXPECT_GT(most, 32u);
+}
+
 TEST(BreakingBudgets, BudgetsOfOneFragmentAreRefused) {
     for (const auto budget_of : {&brittle::BreakingBudget::most_fragments, &brittle::BreakingBudget::step_sites}) {
         brittle::BreakingBudget budget;
