@@ -126,7 +126,8 @@ std::vector<uint32_t> wedgesOf(const Soup& soup) {
     counts[COUNT_MESH_CORNERS] = 3 * triangles;
     onDevice([&](engine::Commands& commands) {
         brittle::Recorder record(commands, kernels(), counts.words, counts.args);
-        for (const uint32_t count : {COUNT_MESH_VERTICES, COUNT_MESH_TRIANGLES, COUNT_MESH_CORNERS})
+        for (const uint32_t count :
+             {uint32_t{COUNT_MESH_VERTICES}, uint32_t{COUNT_MESH_TRIANGLES}, uint32_t{COUNT_MESH_CORNERS}})
             record.publish(count, NO_INDEX);
         const brittle::EventGrid grid;
         brittle::recordWedges({.grid = grid, .capacity = capacity, .b = b, .scene = {}, .record = record});
