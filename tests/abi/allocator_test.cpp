@@ -15,7 +15,7 @@ TEST(SmallAbiMemory, GivesBackAllThatItTookFromTheHostsAllocator) {
     ASSERT_EQ(brittleCreateContext(&def, &context), BRITTLE_OK);
     const size_t at_first = heap.allocations;
     EXPECT_GT(at_first, 0u);
-    const CubeMesh cube = cubeMesh();
+    const HostMesh cube = cubeMesh();
     const BrittleMeshDef mesh_def = cube.def();
     BrittleMesh mesh;
     MUST(context, brittleCreateMesh(context, &mesh_def, &mesh));
@@ -27,7 +27,7 @@ TEST(SmallAbiMemory, GivesBackAllThatItTookFromTheHostsAllocator) {
 
 TEST(SmallAbiMemory, SurvivesAnAllocatorThatRunsOut) {
     const HostDevice device;
-    const CubeMesh cube = cubeMesh();
+    const HostMesh cube = cubeMesh();
     const BrittleMeshDef mesh_def = cube.def();
     bool was_enough = false;
     for (size_t most = 0; !was_enough && most < 50; ++most) {

@@ -141,7 +141,7 @@ TEST(Abi, MakesADeviceOfItsOwnForHostsWithout) {
 // Ids that are told from others: kinds, contexts, what is gone.
 TEST(SmallAbi, KnowsStaleIdsFromWrongOnes) {
     const Hosting host, other;
-    const CubeMesh cube = cubeMesh();
+    const HostMesh cube = cubeMesh();
     const BrittleMeshDef def = cube.def();
     BrittleMesh mesh, next;
     MUST(host, brittleCreateMesh(host, &def, &mesh));
@@ -162,7 +162,7 @@ TEST(SmallAbi, KnowsStaleIdsFromWrongOnes) {
 
 TEST(SmallAbi, ChecksMeshes) {
     const Hosting host;
-    const CubeMesh cube = cubeMesh();
+    const HostMesh cube = cubeMesh();
     BrittleMesh mesh = {0};
     const auto made = [&](auto&& change) {
         BrittleMeshDef def = cube.def();
@@ -183,7 +183,7 @@ TEST(SmallAbi, ChecksMeshes) {
     EXPECT_EQ(made([](BrittleMeshDef& d) { d.positions = nullptr; }), BRITTLE_NULL_ARGUMENT);
     EXPECT_EQ(made([](BrittleMeshDef& d) { d.indices = nullptr; }), BRITTLE_NULL_ARGUMENT);
     EXPECT_EQ(made([](BrittleMeshDef& d) { d.struct_size = 1; }), BRITTLE_WRONG_VERSION);
-    CubeMesh bad = cubeMesh();
+    HostMesh bad = cubeMesh();
     bad.positions[5] = std::nanf("");
     const BrittleMeshDef def = bad.def();
     EXPECT_EQ(brittleCreateMesh(host, &def, &mesh), BRITTLE_BAD_VALUE);
@@ -195,7 +195,7 @@ TEST(SmallAbi, ChecksMeshes) {
 // Strides as engines have them, normals and texture coordinates between.
 TEST(SmallAbi, TakesInterleavedVertices) {
     const Hosting host;
-    const CubeMesh cube = cubeMesh();
+    const HostMesh cube = cubeMesh();
     std::vector<float> vertices;
     for (size_t k = 0; k < 8; ++k) {
         vertices.insert(vertices.end(), &cube.positions[3 * k], &cube.positions[3 * k] + 3);
@@ -240,7 +240,7 @@ TEST(SmallAbi, ChecksMaterials) {
 
 TEST(SmallAbi, LeavesNothingBehindInAHundredCycles) {
     const HostDevice device;
-    const CubeMesh cube = cubeMesh();
+    const HostMesh cube = cubeMesh();
     for (int k = 0; k < 100; ++k) {
         BrittleContextDef def = defOn(device);
         BrittleContext* context = nullptr;

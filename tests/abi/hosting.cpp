@@ -89,7 +89,7 @@ uint64_t hashOf(const Hosting& host, BrittleWorld world) {
     return hash;
 }
 
-BrittleMeshDef CubeMesh::def() const {
+BrittleMeshDef HostMesh::def() const {
     BrittleMeshDef def = brittleDefaultMeshDef();
     def.positions = positions.data();
     def.vertex_count = static_cast<uint32_t>(positions.size() / 3);
@@ -98,8 +98,8 @@ BrittleMeshDef CubeMesh::def() const {
     return def;
 }
 
-CubeMesh cubeMesh(double edge) {
-    CubeMesh mesh;
+HostMesh cubeMesh(double edge) {
+    HostMesh mesh;
     const auto half = static_cast<float>(edge / 2);
     for (uint32_t k = 0; k < 8; ++k)
         for (uint32_t axis = 0; axis < 3; ++axis)

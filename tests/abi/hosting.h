@@ -53,12 +53,12 @@ BrittleCounts countsOf(const Hosting& host, BrittleWorld world);
 std::vector<std::byte> savedOf(const Hosting& host, BrittleWorld world);
 uint64_t hashOf(const Hosting& host, BrittleWorld world);
 
-// A cube of edge 2 about the origin, without its last triangles.
-struct CubeMesh {
+struct HostMesh {
     std::vector<float> positions;
     std::vector<uint32_t> indices;
     BrittleMeshDef def() const;
 };
-CubeMesh cubeMesh(double edge = 2);
+// A cube about the origin.
+HostMesh cubeMesh(double edge = 2);
 
 } // namespace abi_test

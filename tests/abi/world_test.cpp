@@ -437,7 +437,7 @@ TEST(AbiWorld, WhoseSurfacesTheDeviceCannotBindIsRefused) {
 
 TEST(AbiWorld, MovesMeshesByTheirCells) {
     const Hosting host;
-    const CubeMesh cube = cubeMesh(1);
+    const HostMesh cube = cubeMesh(1);
     const BrittleMeshDef mesh_def = cube.def();
     BrittleBodyDef body = brittleDefaultBodyDef();
     MUST(host, brittleCreateMesh(host, &mesh_def, &body.shape.mesh));

@@ -18,7 +18,7 @@ using support::runProgram;
 
 class FoldedFaces : public support::FolderTest {};
 
-// Of a gear with teeth, whose faces are cut into triangles from one corner.
+// A gear, whose faces are cut into triangles from one corner.
 TEST_F(FoldedFaces, AreTheReasonThatShatterGivesWhereItFails) {
     std::vector<std::array<double, 2>> outline;
     for (uint32_t k = 0; k < 80; ++k) {

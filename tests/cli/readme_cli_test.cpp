@@ -29,7 +29,7 @@ protected:
         return found;
     }
 
-    // What it writes lies in the test's folder.
+    // Moves output files into the test's folder.
     std::vector<std::string> inOwnFolder(std::vector<std::string> words) const {
         for (size_t k = 1; k < words.size(); ++k)
             if (words[k - 1] == "-o" || words[k - 1] == "--picture") words[k] = path(words[k]);

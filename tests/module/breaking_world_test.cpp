@@ -97,7 +97,7 @@ TEST(BreakingWorld, FragmentsTellWhatTheyLookLike) {
     EXPECT_NEAR(area, outerAreaOf(whole), 1e-4 * area);
 }
 
-// Whether more than two triangles have the same two corners.
+// Returns whether more than two triangles have the same two corners.
 bool touchesItself(const brittle::SurfaceMesh& surface) {
     std::map<std::set<brittle::Float3>, uint32_t> uses;
     const auto placeOf = [&](size_t k) {

@@ -240,7 +240,7 @@ engine::Error Run::brokenContract(const std::string& violation) const {
     if (!folds.empty())
         advice =
             "at " + brittle::formatCount(static_cast<uint64_t>(folds.size()), "edge") +
-            " a face of the model lies on its neighbor (`brittle doctor` has the places): cut the faces into triangles anew";
+            " a face of the model lies on its neighbor (`brittle doctor` has the places): cut these faces into triangles again";
     if (convex) advice = "the model is not convex where it was cut: use --caps exact";
     if (rounded) advice = convex ? "use --precision exact and --caps exact" : "use --precision exact";
     return {rounded || convex || !folds.empty() ? engine::ErrorCode::BadInput : engine::ErrorCode::Internal,

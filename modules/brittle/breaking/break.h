@@ -12,7 +12,7 @@ struct BreakingRoom {
     GatherRoom mesh;
     uint32_t sites = 0;
     uint32_t most_sites = 0; // of one object
-    bool touching = false;   // surfaces may have edges of more than two triangles
+    bool touching = false;   // surfaces may touch themselves along edges
 };
 
 // Returns about how many triangles the fragments have together if surfaces of `triangles` triangles are cut at `sites` sites.

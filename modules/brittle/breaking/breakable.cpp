@@ -54,14 +54,15 @@ bool mayTouchItself(const SurfaceMesh& surface, const Extent& extent) {
     float half_size = 0;
     for (size_t k = 0; k < 3; ++k)
         half_size = std::max(half_size, 0.5f * (extent.high[k] - extent.low[k]));
-    const float steps = std::ldexp(1.0f, 23 - std::ilogb(half_size) - 1);
+    EventGrid grid;
+    grid.scale = std::ldexp(kTileScale, -std::ilogb(half_size) - 1);
     SnappedMesh snapped(surface.indices.size());
     for (const uint32_t index : surface.indices) {
-        Int3 place;
+        const float* p = surface.vertices[index].position;
+        Double3 way;
         for (size_t k = 0; k < 3; ++k)
-            place[k] = static_cast<int32_t>(
-                std::nearbyint((surface.vertices[index].position[k] - 0.5f * (extent.low[k] + extent.high[k])) * steps));
-        snapped.addVertex(place);
+            way[k] = p[k] - 0.5f * (extent.low[k] + extent.high[k]); // rounded to a float, as on the device
+        snapped.addVertex(snapToGrid(grid, way));
     }
     for (uint32_t k = 0; k + 2 < surface.indices.size(); k += 3)
         snapped.addTriangle({k, k + 1, k + 2});

@@ -16,8 +16,8 @@
 
 namespace brittle {
 
-// Checks that the device can bind the lists by which a body of so many triangles breaks. Errors: Capacity, with the most
-// triangles of a body that it can. The lists do not depend on bodies if the budget has triangles for a step.
+// Checks that the device can bind the lists by which a body of `triangles` triangles breaks. Errors: Capacity, with the
+// most triangles of a body that it can. The lists do not depend on bodies if the budget has triangles for a step.
 engine::Result<void> canBreak(engine::Device& device, uint32_t triangles, const BreakingBudget& budget);
 
 class Breaking {

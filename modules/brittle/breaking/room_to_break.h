@@ -37,8 +37,8 @@ struct RoomToBreak {
 // Triangles of the largest surface that can break.
 uint32_t largestSurface(const WorldContents& contents);
 
-// In a step, for bodies of which the largest has a surface of so many triangles: the numbers of RoomToBreak that begin with
-// `step_`, and `most_fragments`.
+// Returns the numbers of RoomToBreak that begin with `step_`, and `most_fragments`. `largest_surface`: triangles of the largest
+// body that breaks.
 RoomToBreak roomInAStep(uint32_t largest_surface, const BreakingBudget& budget);
 
 // Every number given. Errors: Capacity for more than pools can hold (world_pools.h).

@@ -121,7 +121,7 @@ void takeSites(const Input& in, Taker& take) {
     b.loose_sites = take.words(c.sites);
 }
 
-// Of a closed surface half of the corners are more than there are vertices, or edges.
+// A closed surface has half as many edges as corners, and fewer vertices than that.
 void takeWedges(const Input& in, Taker& take) {
     const Capacities& c = in.c;
     EventBuffers& b = in.b;

@@ -37,7 +37,7 @@ struct Capacities {
     uint32_t sides_per_polygon = USUAL_SIDES;
     bool sphere_tree = false;
     bool tiled = false;         // of several objects
-    bool touching = false;      // surfaces may have edges of more than two triangles
+    bool touching = false;      // surfaces may touch themselves along edges
     bool relaxed = false;       // sites are still moved when cells have been cut
     uint32_t emit_window = 0;   // triangles that one dispatch of `emit` can reach
     uint32_t source_window = 0; // mesh triangles whose corner attributes it can reach; 0: all

@@ -66,7 +66,7 @@ engine::Result<ImportedMesh> ObjReader::run() {
     return mesh;
 }
 
-// What was left out before may be the reason.
+// Lines that were left out may be the reason.
 engine::Error ObjReader::refusal(size_t line, const char* wrong) const {
     const bool is_all_obj = unknown_.count() == 0;
     return badLine(line, wrong + (is_all_obj ? "" : "; lines that are not OBJ are left out: " + unknown_.described("line")));
