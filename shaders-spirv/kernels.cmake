@@ -164,6 +164,7 @@ kernel(narrow_phase/separate_siblings.comp)
 kernel(narrow_phase/find_axes.comp)
 kernel(narrow_phase/find_axes.comp NAME find_axes_wide DEFINES LANES=32u)
 kernel(narrow_phase/find_fixed_axes.comp)
+kernel(narrow_phase/name_first_hits.comp)
 kernel(narrow_phase/build_manifolds.comp)
 
 # What breaks, made ready.

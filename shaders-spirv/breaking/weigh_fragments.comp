@@ -76,7 +76,7 @@ BodyState stateOf(Weighed w, BodyState parent, BreakableBody whole, vec3 center)
     ivec3 sectors = sectorsIn(offset);
     vec4 turn = normalize(turnAfter(turnAfter(parent.turn, whole.turn), w.axes));
     vec3 momentum = turned(turn, w.moments * turned(turnBack(turn), parent.spin.xyz));
-    return BodyState(ivec4(parent.sector.xyz + sectors, parent.sector.w & ~(BODY_ASLEEP | BODY_HANGS | BODY_ROUND | BODY_BORNE)),
+    return BodyState(ivec4(parent.sector.xyz + sectors, parent.sector.w & ~(BODY_ASLEEP | BODY_HANGS | BODY_HELD | BODY_ROUND | BODY_BORNE)),
                      vec4(offsetWithin(offset, sectors), 1.0 / w.mass), turn,
                      vec4(parent.velocity.xyz + cross(parent.spin.xyz, way), 0.0), vec4(parent.spin.xyz, 0.0),
                      vec4(momentum, 0.0));

@@ -21,6 +21,7 @@ READS(6, HullFace, hull_faces);
 READS(7, uint, hull_corners);
 READS(8, uvec4, hull_edges);
 UPDATES(9, AxisRecord, axis_records);
+UPDATES(10, FirstHits, first_hits);
 layout(constant_id = SIBLINGS_ID) const uint kSiblings = 0u;
 layout(push_constant) uniform Push { NarrowPhasePush push; };
 
@@ -34,6 +35,7 @@ bool is_fast;                                  // faster than the margin in this
 float tie;
 
 #include "lib/axis_search.glsl"
+#include "lib/note_hit.glsl"
 #include "lib/face_axes.glsl"
 
 // Axes whose separations differ by less than this share of the smaller hull are as good: faces go before edges, A before B, so
@@ -79,6 +81,12 @@ Seen betterOf(Seen a, Seen b, float wider) {
     bool is_later = a.enter == -kFar || (b.enter - a.enter) * length(pair.motion) > tie;
     return Seen(is_wider ? b.separation : a.separation, is_wider ? b.feature : a.feature, is_later ? b.enter : a.enter,
                 is_later ? b.enter_feature : a.enter_feature, min(a.leave, b.leave), kFar);
+}
+
+// By one lane.
+void keepRecord(uint k, AxisRecord record) {
+    axis_records[k] = record;
+    noteHit(record);
 }
 
 AxisRecord apartBy(float gap) { return AxisRecord(vec4(vec3(0.0), gap), vec4(0.0), uvec4(AXIS_APART)); }

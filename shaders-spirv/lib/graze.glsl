@@ -8,8 +8,7 @@
 // Wants lib/axis_kernel.glsl.
 #ifndef GRAZE_GLSL
 #define GRAZE_GLSL
-
-const float kThinStrip = 0.05, kFlatStrip = 1e-4; // of the smaller radius: as wide as a strip may be, and always is
+#include "lib/strip.glsl"
 
 float strip;     // how wide it may be between these two; 0 where nothing falls
 uint floor_side; // 1: A, 2: B, 0: neither
@@ -28,7 +27,7 @@ uint floorOf() {
 
 // Before all else here, once the hulls are loaded.
 void findFloor() {
-    strip = push.strip > 0.0 ? clamp(push.strip, kFlatStrip * pair.smaller, kThinStrip * pair.smaller) : 0.0;
+    strip = stripBetween(push.strip, pair.smaller);
     floor_side = floorOf();
 }
 

@@ -28,6 +28,7 @@ READS(7, uint, hull_corners);
 READS(8, uvec4, hull_edges);
 READS(9, AxisRecord, axes);
 WRITES(10, Manifold, manifolds);
+READS(11, FirstHits, first_hits);
 layout(push_constant) uniform Push { NarrowPhasePush push; };
 
 #include "lib/hull_pair.glsl"
@@ -83,6 +84,7 @@ vec3 normalOf(bool of_a, uint face) {
 }
 
 #include "lib/level_faces.glsl"
+#include "lib/hidden_hit.glsl"
 
 // Wants the plane set.
 void gatherCandidates() {
@@ -201,7 +203,7 @@ void main() {
     uint k = flatIndex();
     if (k >= min(counts[push.count_at], push.capacity)) return;
     pair = loadPair(pairs[k], push);
-    found = axes[k];
+    found = unlessHidden(k, axes[k]);
     is_swept = found.shift.xyz != vec3(0.0);
     uint kind = found.info.x >> AXIS_KIND_SHIFT;
     bool by_edges = kind == AXIS_EDGES, by_faces = !by_edges && kind != AXIS_APART;

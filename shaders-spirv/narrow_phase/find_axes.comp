@@ -10,6 +10,7 @@
 #include "lib/axis_kernel.glsl"
 #include "lib/edge_axes.glsl"
 #include "lib/graze.glsl"
+#include "lib/hidden_side.glsl"
 #include "shared/sweep.h"
 
 const uint kAttempts = 3u;
@@ -100,11 +101,16 @@ void main() {
     bool is_hit = isHit(seen), is_apart = isApart(seen);
     uint feature = is_hit ? seen.enter_feature : seen.feature;
     vec3 shift = is_hit ? seen.enter * pair.motion : vec3(0.0);
+    uint level = is_apart ? NO_INDEX : levelFace(axisOf(feature));
+    if (level != NO_INDEX) {
+        feature = level;
+        shift = wayToFace(level);
+    }
     float steps = is_hit ? seen.enter * float(SWEEP_AHEAD) : 0.0;
     uint grazed = grazedFace(axisOf(feature), steps, !is_apart);
     bool grazes = grazed != NO_INDEX;
     AxisRecord record = apartBy(seen.separation);
     if (!is_apart) record = foundBy(grazes ? grazed | AXIS_GRAZES : feature, grazes ? vec3(0.0) : shift);
     if (!grazes && isMiss(seen, record.axis.xyz)) record = apartBy(seen.separation);
-    if (lane == 0u) axis_records[k] = record;
+    if (lane == 0u) keepRecord(k, record);
 }

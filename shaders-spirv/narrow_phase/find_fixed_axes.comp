@@ -44,5 +44,5 @@ void main() {
     AxisRecord record = apartBy(seen.separation);
     if (!isApart(seen)) record = foundBy(seen);
     if (isMiss(seen, record.axis.xyz)) record = apartBy(seen.separation);
-    if (lane == 0u) axis_records[k] = record;
+    if (lane == 0u) keepRecord(k, record);
 }

@@ -12,9 +12,11 @@ GPU_NAMESPACE_BEGIN
 // Flags.
 #define BODY_ASLEEP 1 /* it was not solved in the last step */
 #define BODY_ABSENT 2 /* nothing is in this slot */
-#define BODY_HANGS 4  /* something that does not move held it back in the last step */
+#define BODY_HANGS 4  /* something that does not move has held it back, and it does not tumble on */
 #define BODY_ROUND 8  /* a ball, however few corners its hull has */
 #define BODY_BORNE 16 /* others carried it in the last step, or the air: it fell no faster than before */
+#define BODY_HELD 224 /* three bits: in how many steps in a row something that does not move held it back, up to seven */
+#define BODY_HELD_ONCE 32
 
 struct BodyState {
     ivec4 sector;  // w: BODY_* flags

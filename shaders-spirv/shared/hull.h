@@ -17,10 +17,12 @@ struct HullRecord {
     vec4 center; // inside the hull; w: radius of the ball about it that holds the hull
 };
 
-// A flat hull, such as a triangle of a static mesh, has two faces, which lie back to back.
+// A flat hull, such as a triangle of a static mesh, has two faces, which lie back to back. Where a neighbor goes on level behind a side
+// of a triangle, nothing can come from there: that side is hidden.
 struct HullFace {
     vec4 plane; // outward unit normal, height along it
-    uvec4 loop; // first corner in the pool, corners, 0, 0; counterclockwise from outside
+    uvec4 loop; // first corner in the pool, corners, hidden sides of a triangle, 0; counterclockwise from outside. Bit v of the hidden
+                // sides is that of the side that vertex v is not on
 };
 
 // The other pools: vertices as vec4; corners as uint, a vertex of the hull each; edges as uvec4, each edge once: from vertex,

@@ -18,6 +18,8 @@ GPU_NAMESPACE_BEGIN
 #define AXIS_FIXED 4u
 #define AXIS_KIND_SHIFT 24u
 #define AXIS_GRAZES 0x10000u     /* of a face: along it the hulls overlap by a thin strip only (lib/graze.glsl) */
+#define AXIS_LEVEL 0x20000u      /* of a face of a triangle: the axis that was found leads to a hidden side (lib/hidden_side.glsl) */
+#define NO_HIT 0xffffffffu
 #define AXIS_UNKNOWN 0xffffffffu /* a feature: nobody has found the axis yet */
 
 // The axis along which a pair touches, in the frame of A: its body's axes, from the center of A's hull.
@@ -25,6 +27,14 @@ struct AxisRecord {
     vec4 axis;  // unit, from A to B; w: separation along it where B has gone by the shift
     vec4 shift; // of B, to the time of impact; w: height of the reference hull along its own outward normal
     uvec4 info; // feature, reference hull (0 is A), its face, the other's face
+};
+
+// What a body touches first in a step: of what does not move, and of what moves. NO_HIT where it touches nothing.
+struct FirstHits {
+    uint fixed_order; // the lower, the earlier (lib/first_hit.glsl)
+    uint fixed_pair;
+    uint moving_order;
+    uint moving_pair;
 };
 
 struct NarrowPhasePush {
@@ -36,12 +46,12 @@ struct NarrowPhasePush {
     uint fixed_axes;   // directions, of find_fixed_axes
     float step;        // s
     float strip;       // m: hulls that overlap by less graze each other; 0: none do
-    uint unused;
+    uint hides;        // 1: what is touched first hides sides (lib/hidden_hit.glsl)
 };
 
 GPU_NAMESPACE_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::NarrowPhasePush) == 48);
+static_assert(sizeof(gpu::AxisRecord) == 48 && sizeof(gpu::FirstHits) == 16 && sizeof(gpu::NarrowPhasePush) == 48);
 #endif
 #endif

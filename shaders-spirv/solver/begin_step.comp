@@ -11,6 +11,7 @@
 #include "lib/held_way.glsl"
 #include "lib/effect.glsl"
 #include "lib/air_drag.glsl"
+#include "shared/narrow_phase.h"
 #include "shared/solver.h"
 
 FLAT_KERNEL;
@@ -25,6 +26,7 @@ WRITES(4, vec4, spins); // that the momentum was last brought up to
 WRITES(5, uint, shares); // of its way that it may go, and that is left by what does not move
 READS(6, uint, steps);
 WRITES(7, uint, parents); // of islands: every body is one to begin with
+WRITES(8, FirstHits, first_hits);
 layout(push_constant) uniform Push {
     vec4 gravity; // w: length of the step
     float lag;    // of speeds behind places, s
@@ -45,7 +47,10 @@ void main() {
                                   vec4(inverse[0][0], inverse[0][1], inverse[0][2], inverse[1][1]), vec4(0.0, 0.0, 0.0, inverse[1][2]),
                                   vec4(0.0, 0.0, 0.0, 1.0));
     spins[b] = vec4(state.spin.xyz, 0.0);
-    if (kContacts != 0u) parents[b] = b;
+    if (kContacts != 0u) {
+        parents[b] = b;
+        first_hits[b] = FirstHits(NO_HIT, NO_HIT, NO_HIT, NO_HIT);
+    }
     if (kCcd == 0u) return;
     shares[2u * b] = floatBitsToUint(1.0);
     shares[2u * b + 1u] = floatBitsToUint(1.0);

@@ -51,11 +51,21 @@ void noteBorne(uint b, float gained) {
     bodies[b].sector.w = is_borne ? bodies[b].sector.w | BODY_BORNE : bodies[b].sector.w & ~BODY_BORNE;
 }
 
+// What is held once hangs. What goes further than its own radius in a step may tumble along a floor: it is held for a few steps, and goes
+// on.
+int withHeld(int flags, bool held, bool goes_far) {
+    int steps = held ? min((flags & BODY_HELD) + BODY_HELD_ONCE, BODY_HELD) : 0;
+    bool hangs = held && (!goes_far || steps == BODY_HELD);
+    return (flags & ~(BODY_HELD | BODY_HANGS)) | steps | (hangs ? BODY_HANGS : 0);
+}
+
+bool goesFar(uint b) { return gravity.w * length(solver_bodies[b].velocity.xyz) > reachOf(shapes[b]); }
+
 // What hangs in something that does not move comes to rest there, or it would keep a speed with which it goes nowhere.
 float shareOfSpeed(uint b) {
     bool hung = (bodies[b].sector.w & BODY_HANGS) != 0;
     float share = uintBitsToFloat(shares[2u * b + 1u]);
-    bodies[b].sector.w = share < 1.0 ? bodies[b].sector.w | BODY_HANGS : bodies[b].sector.w & ~BODY_HANGS;
+    bodies[b].sector.w = withHeld(bodies[b].sector.w, share < 1.0, goesFar(b));
     return hung ? share : 1.0;
 }
 

@@ -88,21 +88,30 @@ vec3 depthAt(uint pair, Side a, Side b, vec3 way, float share) {
     return vec3(of_a.y - from_b.x - dot(n, apart), of_a.y - of_a.x, from_b.y - from_b.x);
 }
 
-// What begins deeper may go on a little, to get out of each other's way; but not ever deeper into what does not move, step by step.
-float allowedDepth(vec3 first, Side a, Side b) {
+bool isFlat(Side side) { return side.hull.count.y == 2u; }
+
+// How deep they may lie in each other. What is behind a triangle of a mesh by half of its thickness would be pushed out on the wrong side.
+float usualDepth(float thickness_a, float thickness_b, Side a, Side b) {
     float slight = min(margin, MARGIN_SHARE * min(a.hull.center.w, b.hull.center.w));
-    float allowed = max(kDepthShare * min(first.y, first.z), slight);
-    return max(allowed, first.x + kRoom * (moves(a.body) && moves(b.body) ? allowed : clamp(2.0 * allowed - first.x, 0.0, allowed)));
+    if (isFlat(a) != isFlat(b)) return kDepthShare * (isFlat(a) ? thickness_b : thickness_a);
+    return max(kDepthShare * min(thickness_a, thickness_b), slight);
+}
+
+// What begins deeper may go on a little, to get out of each other's way; but not ever deeper into what does not move, step by step.
+float allowedDepth(vec2 thickness, float first, Side a, Side b) {
+    float allowed = usualDepth(thickness.x, thickness.y, a, b), deepest = (isFlat(a) || isFlat(b) ? 1.5 : 2.0) * allowed;
+    return max(allowed, first + kRoom * (moves(a.body) && moves(b.body) ? allowed : clamp(deepest - first, 0.0, allowed)));
 }
 
 // First as it began, then the whole step, then halves.
 float shareWithin(uint pair, Side a, Side b, vec3 way) {
-    float low = 0.0, high = 1.0, allowed = 0.0;
-    bool open = a.is_swift || b.is_swift, held = false;
+    float low = 0.0, high = 1.0, allowed = 0.0, first = 0.0;
+    bool open = a.is_swift || b.is_swift, held = false, thins = isFlat(a) || isFlat(b); // as it turns
     for (uint k = 0u; k < ROLLED(kHalvings + 2u) && open; k++) {
         float share = k == 0u ? 0.0 : (k == 1u ? 1.0 : 0.5 * (low + high));
         vec3 depth = depthAt(pair, a, b, way, share);
-        if (k == 0u) allowed = allowedDepth(depth, a, b);
+        if (k == 0u) first = depth.x;
+        if (k == 0u || thins) allowed = allowedDepth(depth.yz, first, a, b);
         bool fits = depth.x <= allowed;
         low = fits ? share : low;
         high = fits ? high : share;

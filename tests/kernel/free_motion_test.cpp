@@ -1,4 +1,5 @@
 // begin_step, push_bodies, move_bodies and end_step of bodies that touch nothing, against free motion in double precision.
+#include "shaders-spirv/shared/narrow_phase.h"
 #include "tests/kernel/solver_lab.h"
 #include "tests/reference/rigid_motion.h"
 
@@ -28,18 +29,19 @@ struct Buffers {
           solver_bodies(blankBuffer<gpu::SolverBody>(bodies.size())), spins(blankBuffer<gpu::vec4>(bodies.size())),
           none(bufferOf(std::vector<uint32_t>(bodies.size() + 1))), contacts(blankBuffer<gpu::SolverContact>(1)),
           steps(bufferOf(std::vector<uint32_t>(IDLE_STEPS))), shares(blankBuffer<uint32_t>(2 * bodies.size())),
-          parents(blankBuffer<uint32_t>(bodies.size())) {
+          parents(blankBuffer<uint32_t>(bodies.size())), first_hits(blankBuffer<gpu::FirstHits>(bodies.size())) {
         counts[COUNT_BODIES] = static_cast<uint32_t>(bodies.size());
     }
     Counts counts;
-    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares, parents;
+    engine::Buffer states, shapes, solver_bodies, spins, none, contacts, steps, shares, parents, first_hits;
 };
 
 void begin(Buffers& b, const gpu::vec4& falling, double lag = 0) {
     const float push[] = {falling.x, falling.y, falling.z, falling.w, static_cast<float>(lag)};
     onDevice([&](engine::Commands& commands) {
-        commands.dispatch(kernel("begin_step"), b.counts[COUNT_BODIES], push,
-                          {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.shares, b.steps, b.parents});
+        commands.dispatch(
+            kernel("begin_step"), b.counts[COUNT_BODIES], push,
+            {b.counts.words, b.states, b.shapes, b.solver_bodies, b.spins, b.shares, b.steps, b.parents, b.first_hits});
     });
 }
 
@@ -280,12 +282,12 @@ TEST(SmallFreeMotion, LeavesWhatIsNotSolvedWhereItIs) {
     EXPECT_NE(placeOf(states[1]), bodies[1].place());
 }
 
-// The body after a step of which only a share may be made, and a second one.
-gpu::BodyState heldTwice(const RigidBody& body, const Vector& gravity, float share, float by_still) {
+// The body after so many steps, of each of which only a share may be made.
+gpu::BodyState heldFor(uint32_t steps, const RigidBody& body, const Vector& gravity, float share, float by_still) {
     Buffers b({body});
     gpu::SolverPush push{};
     push.gravity = wordsOf(gravity, 1.0 / 240);
-    for (uint32_t step = 0; step < 2; ++step) {
+    for (uint32_t step = 0; step < steps; ++step) {
         begin(b, wordsOf(gravity, 1.0 / 60));
         for (uint32_t k = 0; k < 4; ++k)
             substep(b, push);
@@ -299,20 +301,29 @@ gpu::BodyState heldTwice(const RigidBody& body, const Vector& gravity, float sha
 TEST(SmallFreeMotion, GivesNoGravityForTimeThatIsLost) {
     const RigidBody body = tumbling(6, 3);
     const Vector gravity(0, -9.81, 0);
-    const gpu::BodyState held = heldTwice(body, gravity, 0.25f, 1), free = heldTwice(body, gravity, 1, 1);
+    const gpu::BodyState held = heldFor(2, body, gravity, 0.25f, 1), free = heldFor(2, body, gravity, 1, 1);
     EXPECT_NEAR((xyz(held.velocity) - xyz(body.state.velocity) - 2 * 0.25 / 60 * gravity).norm(), 0, 1e-5);
     EXPECT_NEAR((xyz(free.velocity) - xyz(body.state.velocity) - 2.0 / 60 * gravity).norm(), 0, 1e-5);
 }
 
 TEST(SmallFreeMotion, SlowsWhatHangsInWhatDoesNotMove) {
     const RigidBody body = tumbling(6, 3);
-    const gpu::BodyState by_still = heldTwice(body, {0, 0, 0}, 0.25f, 0.25f), by_moving = heldTwice(body, {0, 0, 0}, 0.25f, 1);
+    const gpu::BodyState by_still = heldFor(2, body, {0, 0, 0}, 0.25f, 0.25f),
+                         by_moving = heldFor(2, body, {0, 0, 0}, 0.25f, 1);
     EXPECT_NEAR((xyz(by_still.velocity) - 0.25 * xyz(body.state.velocity)).norm(), 0, 1e-6) << "from the second step on";
     EXPECT_NEAR(xyz(by_still.momentum).norm(), 0.25 * xyz(body.state.momentum).norm(), 1e-5 * xyz(body.state.momentum).norm());
     EXPECT_NEAR(xyz(by_still.spin).norm(), 0.25 * xyz(by_moving.spin).norm(), 1e-5);
     EXPECT_NEAR((xyz(by_moving.velocity) - xyz(body.state.velocity)).norm(), 0, 1e-6);
     EXPECT_EQ(by_still.sector.w & BODY_HANGS, BODY_HANGS);
     EXPECT_EQ(by_moving.sector.w & BODY_HANGS, 0);
+}
+
+// It may tumble along a floor.
+TEST(SmallFreeMotion, SlowsWhatGoesFartherThanItsRadiusOnlyAfterSevenSteps) {
+    RigidBody body = tumbling(6, 3);
+    body.state.velocity = wordsOf(Vector(200, 0, 0));
+    EXPECT_NEAR(heldFor(7, body, {0, 0, 0}, 0.25f, 0.25f).velocity.x, 200, 1e-4);
+    EXPECT_NEAR(heldFor(8, body, {0, 0, 0}, 0.25f, 0.25f).velocity.x, 50, 1e-4);
 }
 
 // What is no number would spread.

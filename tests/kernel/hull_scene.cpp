@@ -163,7 +163,7 @@ gpu::BodyState HullScene::stateOf(uint32_t body) const {
     const Turn& q = placed.turn;
     gpu::BodyState state{};
     state.sector = {placed.sector[0], placed.sector[1], placed.sector[2], 0};
-    state.offset = wordsOf(placed.place, 1);
+    state.offset = wordsOf(placed.place, placed.inverse_mass);
     state.turn = wordsOf({q[0], q[1], q[2]}, q[3]);
     state.velocity = wordsOf(placed.velocity, 0);
     state.spin = wordsOf(placed.spin, 0);
@@ -208,9 +208,11 @@ std::vector<gpu::Manifold> manifoldsOf(const HullScene& scene, const NarrowPhase
                          manifolds = blankBuffer<gpu::Manifold>(count), axes = blankBuffer<gpu::AxisRecord>(count),
                          arguments = blankBuffer<uint32_t>(8),
                          births = bufferOf(run.births.empty() ? std::vector<gpu::Birth>(1) : run.births),
-                         steps = bufferOf(std::vector<uint32_t>{run.steps, 0, 0, 0});
+                         steps = bufferOf(std::vector<uint32_t>{run.steps, 0, 0, 0}),
+                         first_hits = bufferOf(std::vector<uint32_t>(4 * scene.bodies.size(), NO_HIT));
     brittle::NarrowPhaseInput input = {{records, vertices, faces, corners, edges}, piece, body, pairs, pair_count, 2, count};
     if (!run.births.empty()) input.siblings = {births, steps};
+    if (run.hides) input.first_hits = first_hits;
     engine::KernelLibrary& library = run.kernels ? *run.kernels : kernels();
     const auto start = std::chrono::steady_clock::now();
     onDevice([&](engine::Commands& commands) {

@@ -40,6 +40,7 @@ struct PlacedShape {
     Place velocity = {0, 0, 0};
     std::array<int32_t, 3> sector = {0, 0, 0};
     Place spin = {0, 0, 0};
+    double inverse_mass = 1; // 0: it does not move
 };
 
 struct HullScene {
@@ -62,6 +63,7 @@ struct NarrowPhaseRun {
     engine::KernelLibrary* kernels = nullptr; // the test program's own if null
     std::vector<gpu::Birth> births = {};      // where given, of bodies: kernels specialized with SIBLINGS_ID look at them
     uint32_t steps = 0;                       // that were made
+    bool hides = false;                       // what is touched first hides sides
 };
 // Milliseconds of all repeats go to `milliseconds` where that is given.
 std::vector<gpu::Manifold> manifoldsOf(const HullScene& scene, const NarrowPhaseRun& run = {}, double* milliseconds = nullptr);

@@ -64,6 +64,34 @@ TEST(SmallSweep, HullsThatOverlapAlreadyAreNotSwept) {
     EXPECT_NEAR(m.points[0].arm_a.w, -.005, 1e-6);
 }
 
+// A cube comes down on a floor of two boxes, over the first, and fast aslant towards the second. `rises`: by how much the
+// second one is higher.
+std::vector<gpu::Manifold> onTwoBoxes(bool hides, double rises) {
+    HullScene scene;
+    const uint32_t box = scene.add(boxShape({.5, .1, .5})), cube = scene.add(boxShape({.05, .05, .05}));
+    PlacedShape first = {box, {0, -.1, 0}}, second = {box, {1, rises - .1, 0}};
+    first.inverse_mass = second.inverse_mass = 0;
+    scene.bodies = {first, second, {cube, {.1, .15, 0}, kNoTurn, {60, -30, 0}}};
+    scene.pairs = {{0, 2}, {1, 2}};
+    NarrowPhaseRun run;
+    run.hides = hides;
+    return manifoldsOf(scene, run);
+}
+
+TEST(SmallSweep, WhatIsHitFirstHidesTheSideOfAPieceBehindIt) {
+    const std::vector<gpu::Manifold> seen = onTwoBoxes(false, 0), hidden = onTwoBoxes(true, 0);
+    EXPECT_NEAR(seen[1].normal.x, -1, 1e-6) << "without the first box it would run into the side";
+    EXPECT_EQ(hidden[1].info.x, 0u);
+    EXPECT_NEAR(hidden[0].normal.y, 1, 1e-6);
+    EXPECT_NEAR(hidden[0].points[0].arm_a.w, .1, 1e-5);
+}
+
+TEST(SmallSweep, AStepIsNotHidden) {
+    const std::vector<gpu::Manifold> found = onTwoBoxes(true, .02);
+    EXPECT_NEAR(found[0].normal.y, 1, 1e-6);
+    EXPECT_NEAR(found[1].normal.x, -1, 1e-6);
+}
+
 // Edge over edge, 2 mm apart. Faces of both come towards each other's planes, and are gone before they meet.
 gpu::Manifold passing(const Place& velocity, const Place& spin) {
     HullScene scene;

@@ -38,7 +38,7 @@ TEST(CrowdedBreaking, GoesTheSameWayEveryTime) {
     const auto world = worldOf(jarBetweenHammerAndSlab());
     step(*world, 10);
     auto before = world->save();
-    for (int round = 0; round < 10 && !isCrowded(*world); ++round) {
+    for (int round = 0; round < 30 && !isCrowded(*world); ++round) {
         before = world->save();
         step(*world, 3);
     }

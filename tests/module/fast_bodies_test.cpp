@@ -4,56 +4,20 @@
 #include "modules/brittle/mesh/vector_math.h"
 #include "tests/support/flight_scene.h"
 #include "tests/support/scene_run.h"
+#include "tests/support/shots.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace {
 
-using brittle::BodyDescription, brittle::Double3, brittle::SceneDescription, brittle::ShapeDescription, brittle::ShapeKind;
+using brittle::BodyDescription, brittle::Double3, brittle::SceneDescription, brittle::ShapeKind;
 using brittle::operator-, brittle::operator*;
-using support::flightScene, support::SceneRun;
+using support::addShot, support::flightScene, support::kShots, support::SceneRun, support::Shot;
+using Draw = support::ShotDraw;
 
 constexpr double kThickness = 0.05; // of walls
-
-struct Shot {
-    const char* name;
-    ShapeDescription shape;
-};
-
-const Shot kShots[] = {
-    {"cube", {.kind = ShapeKind::Box, .size = {0.1, 0.1, 0.1}}},
-    {"ball", {.kind = ShapeKind::Ball, .radius = 0.05, .corners = 24}},
-    {"plate", {.kind = ShapeKind::Box, .size = {0.02, 0.5, 0.5}}},
-    {"rod", {.kind = ShapeKind::Box, .size = {0.6, 0.05, 0.05}}},
-    {"splinter", {.kind = ShapeKind::Hull, .points = {{0, 0, 0}, {0.3, 0, 0}, {0, 0.02, 0}, {0.05, 0.01, 0.03}}}},
-};
-
-class Draw {
-public:
-    explicit Draw(uint32_t seed) : random_(seed) {}
-    double upTo(double end) { return end * static_cast<double>(random_()) / 4294967296.0; }
-    bool oneIn(uint32_t n) { return random_() % n == 0; }
-    brittle::Turn turn() { return {upTo(2) - 1, upTo(2) - 1, upTo(2) - 1, upTo(2) - 1}; }
-
-private:
-    std::mt19937 random_;
-};
-
-// From some steps away on its way along x, turned and at times spinning.
-BodyDescription& addShot(SceneDescription& scene, const Shot& shot, double speed, Draw& draw) {
-    BodyDescription& body = scene.bodies.emplace_back();
-    body.name = shot.name;
-    body.shape = shot.shape;
-    body.place = {-2 - draw.upTo(1), 0.01, 0.02};
-    body.turn = draw.turn();
-    body.velocity = {speed, draw.oneIn(3) ? 0.5 * speed : 0, 0};
-    if (draw.oneIn(3)) body.spin = {50, 0, 50};
-    body.surface = {.friction = draw.oneIn(2) ? 0.6 : 0, .restitution = draw.oneIn(3) ? 0.5 : 0};
-    return body;
-}
 
 class FastBodies : public testing::TestWithParam<Shot> {};
 

@@ -132,7 +132,8 @@ gpu::HullRecord recordOf(const HullSet& set, std::span<const Float3> vertices, L
 
 } // namespace
 
-Result<uint32_t> addHull(HullSet& set, std::span<const Float3> vertices, Loops loops, std::span<const Float3> normals) {
+Result<uint32_t> addHull(HullSet& set, std::span<const Float3> vertices, Loops loops, std::span<const Float3> normals,
+                         uint32_t hidden_sides) {
     if (!normals.empty() && normals.size() != loops.size()) return refuse("it has other normals than faces");
     if (auto sizes = checkSizes(vertices, loops); !sizes) return sizes.error();
     const auto sides = sidesOf(vertices, loops);
@@ -145,7 +146,7 @@ Result<uint32_t> addHull(HullSet& set, std::span<const Float3> vertices, Loops l
         set.vertices.push_back({v[0], v[1], v[2], 0});
     for (size_t f = 0; f < loops.size(); ++f) {
         const auto first = static_cast<uint32_t>(set.corners.size());
-        set.faces.push_back({(*planes)[f], {first, static_cast<uint32_t>(loops[f].size()), 0, 0}});
+        set.faces.push_back({(*planes)[f], {first, static_cast<uint32_t>(loops[f].size()), hidden_sides, 0}});
         set.corners.insert(set.corners.end(), loops[f].begin(), loops[f].end());
     }
     for (const auto& [edge, face] : *sides)

@@ -47,6 +47,7 @@ Result<void> checkRoom(const NarrowPhaseInput& input, const NarrowPhaseOutput& o
 struct Kernels {
     const Kernel* size;
     const Kernel* axes;
+    const Kernel* first_hits;
     const Kernel* manifolds;
 };
 
@@ -55,9 +56,11 @@ Result<Kernels> kernelsOf(engine::KernelLibrary& library, uint32_t fixed_axes, b
     if (!size) return size.error();
     const auto axes = library.get(fixed_axes > 0 ? "find_fixed_axes" : many_lanes ? "find_axes_wide" : "find_axes");
     if (!axes) return axes.error();
+    const auto first_hits = library.get("name_first_hits");
+    if (!first_hits) return first_hits.error();
     const auto manifolds = library.get("build_manifolds");
     if (!manifolds) return manifolds.error();
-    return Kernels{*size, *axes, *manifolds};
+    return Kernels{*size, *axes, *first_hits, *manifolds};
 }
 
 Result<void> recordSiblings(engine::Commands& commands, engine::KernelLibrary& library, const NarrowPhaseInput& input,
@@ -82,17 +85,21 @@ Result<void> recordNarrowPhase(engine::Commands& commands, engine::KernelLibrary
     const Float3& g = options.gravity;
     const gpu::NarrowPhasePush push = {{g[0], g[1], g[2], 0}, options.speculative, options.duration,
                                        input.capacity,        input.count_at,      options.fixed_axes,
-                                       options.step,          options.strip,       0};
+                                       options.step,          options.strip,       input.first_hits ? 1u : 0u};
+    const engine::BufferView first_hits = input.first_hits.value_or(output.arguments); // of which nothing is read or written then
     const HullPools& hulls = input.hulls;
     commands.dispatchGroups(*kernels->size, 1, push, {input.counts, output.arguments});
     if (input.siblings)
         if (auto recorded = recordSiblings(commands, library, input, push, output); !recorded) return recorded;
     commands.dispatchIndirect(*kernels->axes, output.arguments.sub(0, 12), push,
                               {input.counts, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
-                               hulls.faces, hulls.corners, hulls.edges, output.axes});
+                               hulls.faces, hulls.corners, hulls.edges, output.axes, first_hits});
+    if (input.first_hits)
+        commands.dispatchIndirect(*kernels->first_hits, output.arguments.sub(16, 12), push,
+                                  {input.counts, input.pairs, input.pieces, input.bodies, output.axes, first_hits});
     commands.dispatchIndirect(*kernels->manifolds, output.arguments.sub(16, 12), push,
                               {input.counts, input.pairs, input.pieces, input.bodies, hulls.records, hulls.vertices,
-                               hulls.faces, hulls.corners, hulls.edges, output.axes, output.manifolds});
+                               hulls.faces, hulls.corners, hulls.edges, output.axes, output.manifolds, first_hits});
     return commands.status();
 }
 

@@ -41,6 +41,8 @@ struct NarrowPhaseInput {
     uint32_t count_at = 0;     // which of them is the number of pairs; at most `capacity` are looked at
     uint32_t capacity = 0;     // pairs that `pairs` and the outputs have room for
     std::optional<NewSiblings> siblings = std::nullopt;
+    // gpu::FirstHits by body, all bits set: what a body meets first hides what it would meet behind that. Without it nothing is hidden.
+    std::optional<engine::BufferView> first_hits = std::nullopt;
 };
 
 struct NarrowPhaseOptions {

@@ -3,6 +3,7 @@
 #include "modules/brittle/breaking/breakable.h"
 #include "modules/brittle/dynamics/grown_piece.h"
 #include "modules/brittle/dynamics/piece_shape.h"
+#include "modules/brittle/dynamics/triangle_pieces.h"
 #include "modules/brittle/dynamics/pose.h"
 #include "modules/brittle/dynamics/sibling_contacts.h"
 #include "modules/brittle/mesh/check.h"
@@ -120,25 +121,6 @@ PieceShape planePiece(double depth) {
     PieceShape piece = pieceOf(hull->hull, {0, 0, 0});
     piece.is_plane = true;
     return piece;
-}
-
-bool hasArea(const PieceShape& triangle) {
-    const Double3 base = toDouble(triangle.vertices[0]);
-    return length(cross(toDouble(triangle.vertices[1]) - base, toDouble(triangle.vertices[2]) - base)) > 0;
-}
-
-// Every triangle is a piece of its own, with two sides; one that has collapsed to a line is in nobody's way.
-std::vector<PieceShape> piecesOf(const ImportedMesh& model) {
-    std::vector<PieceShape> pieces;
-    for (const Index3& t : model.triangles) {
-        PieceShape piece;
-        for (const uint32_t v : t)
-            piece.vertices.push_back(toFloat(model.positions[v]));
-        if (!hasArea(piece)) continue;
-        piece.loops = {{0, 1, 2}, {2, 1, 0}};
-        pieces.push_back(std::move(piece));
-    }
-    return pieces;
 }
 
 // Leaves out bodies that do not move.
@@ -368,7 +350,7 @@ Result<void> ContentsMaker::addSurface(const ColliderDescription& d, BodyDefinit
     const auto model = modelOf(d.shape, folder_);
     if (!model) return Error{model.error().code, "collider \"" + body.name + "\": " + model.error().message};
     keepNotes(d.shape, model->notes);
-    body.pieces = piecesOf(*model);
+    body.pieces = trianglePieces(*model);
     if (body.pieces.empty())
         return Error{ErrorCode::BadInput, "collider \"" + body.name + "\": no triangle of " +
                                               (d.shape.file.empty() ? "its mesh" : d.shape.file) + " has an area"};

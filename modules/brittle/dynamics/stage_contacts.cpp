@@ -46,6 +46,7 @@ void recordRecall(const Step& s) {
 engine::Result<void> recordFreshPoints(const Step& s) {
     NarrowPhaseInput input = {s.b.hulls(),       s.b.pieces,        s.b.bodies,     s.b.step.fresh_pairs,
                               s.record.counts(), COUNT_FRESH_PAIRS, s.b.sizes.pairs};
+    input.first_hits = s.b.step.first_hits;
     if (s.has(Effect::ImpactFracture)) input.siblings = {s.b.births, s.b.steps};
     return recordPoints(s, input, toFloat(s.settings.gravity));
 }
@@ -77,7 +78,7 @@ void recordBoxes(const Step& s) {
     const float push[] = {falling.x, falling.y, falling.z, falling.w, 0.5f * solverPush(s).gravity.w};
     s.record.run("begin_step", Length::counted(COUNT_BODIES), push,
                  {s.record.counts(), s.b.bodies, s.b.shapes, s.b.step.solver_bodies, s.b.step.spins, s.b.step.shares, s.b.steps,
-                  s.b.step.parents});
+                  s.b.step.parents, s.b.step.first_hits});
     if (s.has(Effect::Contacts)) recordPieceBoxes(s);
     s.record.commands().endLabel();
 }

@@ -35,6 +35,7 @@ constexpr Row kRows[] = {
     {&S::fresh_pairs, "fresh_pairs", kContactEffect, Per::Pair, 8},
     {&S::manifolds, "manifolds", kContactEffect, Per::Pair, sizeof(gpu::Manifold)},
     {&S::axes, "axes", kContactEffect, Per::Pair, sizeof(gpu::AxisRecord)},
+    {&S::first_hits, "first_hits", kContactEffect, Per::Body, sizeof(gpu::FirstHits)},
     {&S::narrow_arguments, "narrow_arguments", kContactEffect, Per::Step, kNarrowPhaseArgumentBytes},
     {&S::solver_bodies, "solver_bodies", std::nullopt, Per::Body, sizeof(gpu::SolverBody)},
     {&S::spins, "spins", std::nullopt, Per::Body, 16},

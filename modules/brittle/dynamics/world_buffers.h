@@ -30,7 +30,7 @@ struct PairMemory {
 
 // Made anew in every step.
 struct StepBuffers {
-    engine::BufferView box_low, box_high, recalled, fresh, fresh_slots, sums, fresh_pairs, manifolds, axes, narrow_arguments,
+    engine::BufferView box_low, box_high, recalled, fresh, fresh_slots, sums, fresh_pairs, manifolds, axes, first_hits, narrow_arguments,
         touches, contact_offsets, contact_pairs, contact_slots, solver_bodies, spins, shares, solver_contacts, hits,
         body_colors, bids, waiting, color_start, parents, islands, rests, island_contacts, island_ranges, listed, color_ends,
         heights, members, adjacency_counts, adjacency_start, adjacency_cursors, loose_adjacency, adjacency;

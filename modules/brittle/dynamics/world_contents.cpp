@@ -180,8 +180,8 @@ Result<uint32_t> addBody(WorldContents& contents, const BodyDefinition& body) {
     const HullSizes before = sizesOf(contents.hulls);
     const Principal principal = principalOf(body);
     for (const PieceShape& piece : body.pieces) {
-        const auto hull =
-            addHull(contents.hulls, alongAxes(piece.vertices, principal), piece.loops, alongAxes(piece.normals, principal));
+        const auto hull = addHull(contents.hulls, alongAxes(piece.vertices, principal), piece.loops,
+                                  alongAxes(piece.normals, principal), piece.hidden_sides);
         if (!hull) {
             cutBack(contents.hulls, before);
             contents.pieces.resize(first);

@@ -22,6 +22,7 @@ struct PieceShape {
     std::vector<Float3> vertices;
     std::vector<std::vector<uint32_t>> loops;
     std::vector<Float3> normals; // of the faces, outward, unit, where they are known; else they follow from the loops
+    uint32_t hidden_sides = 0;   // of a triangle, as in gpu::HullFace
     bool is_plane = false;       // a box whose top goes on for ever, at y = 0 of a body that does not move
 };
 

@@ -1,0 +1,22 @@
+// Notes what a pair touches with its bodies, where that is earlier than what they have. What lies beside a triangle, behind a hidden side
+// of it, does not touch it.
+//
+// Wants `pair`, `push`, `is_fast` and `first_hits` declared.
+#ifndef NOTE_HIT_GLSL
+#define NOTE_HIT_GLSL
+#include "lib/first_hit.glsl"
+
+void noteOrder(uint body, bool other_moves, uint order) {
+    if (other_moves) atomicMin(first_hits[body].moving_order, order);
+    else atomicMin(first_hits[body].fixed_order, order);
+}
+
+void noteHit(AxisRecord record) {
+    if (push.hides == 0u || !touches(record) || !(is_fast || pair.reach > 0.0)) return;
+    bool moves_a = moves(pair.ids.z), moves_b = moves(pair.ids.w);
+    uint order = orderOfHit(record);
+    if (moves_a) noteOrder(pair.ids.z, moves_b, order);
+    if (moves_b) noteOrder(pair.ids.w, moves_a, order);
+}
+
+#endif
