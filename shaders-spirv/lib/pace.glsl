@@ -34,14 +34,19 @@ uint turnsOf(uvec2 range, uint bodies, uint most_sides) {
 
 uint substepsAtOnce(uint turns) { return max(kMostTurns / turns, 1u); }
 
-// Heaps, whose bodies have several contacts each, do not buckle. So in the soft solver their contacts carry loads (LOAD_CARRIED), and
-// they get no more substeps than it takes to keep bodies from sinking into each other by more than a small share of their thickness,
-// and no more than is cheap.
+// Heaps, whose bodies have several contacts each, do not buckle. So in the soft solver their contacts carry loads (LOAD_CARRIED), and they
+// get no more substeps than it takes to keep bodies from sinking into each other by more than a small share of their thickness, and no
+// more than is cheap.
+//
+// But walls of bricks do buckle, and so do columns that touch. Islands in which nearly all contacts are faces that meet in four points are
+// stacks, if the substeps of a stack are cheap there. So are those of bodies of several cells, which have many contacts each.
 const uint kCheapTurns = 12000u;
 const float kSinkingShare = 0.02;
 const float kSpring = 2.0 * 3.14159265 * STIFFEST; // of a contact: angular frequency times the substep
 
 bool isHeap(uint contacts, uint bodies) { return push_.heaps_too == 0u && contacts > bodies + bodies / 4u + 1u; }
+
+bool nearlyAll(uint some, uint all_) { return 5u * some > 4u * all_; }
 
 uint affordable(bool is_heap, uint turns) { return is_heap ? kCheapTurns / turns : push_.most_parts * substepsAtOnce(turns); }
 
@@ -181,9 +186,10 @@ uint slowerThan(uint last, uint wanted) { return 5u * wanted < 4u * last ? last 
 uint meanPace(uint sum) { return (sum + shares - 1u) / shares; }
 
 // `carries`: contacts are to carry loads (LOAD_CARRIED), in a heap or for want of substeps.
-uint paceFrom(bool is_heap, uint most, out bool carries) {
+uint paceFrom(bool is_heap, bool is_ordered, uint most, out bool carries) {
     bool weighs = shares != 0u;
     uint stiff_pace = weighs ? meanPace(shared_paces) : push_.substeps;
+    if (is_ordered && stiff_pace <= most) is_heap = false;
     uint wanted = weighs && is_heap ? min(stiff_pace, meanPace(shared_sinking)) : stiff_pace;
     if (last_pace != 0u) wanted = clamp(wanted, slowerThan(last_pace, wanted), last_pace + max(last_pace / 4u, 1u));
     if (!is_heap) wanted = max(wanted, coming_pace);
@@ -192,14 +198,13 @@ uint paceFrom(bool is_heap, uint most, out bool carries) {
     return pace;
 }
 
-uint paceOf(uint lane, uvec2 range, uint height, bool is_heap, uint most, out bool carries) {
+uint paceOf(uint lane, uvec2 range, uint height, bool is_heap, bool is_ordered, uint most, out bool carries) {
     float g = length(push_.gravity.xyz);
-    may_hurry = !is_heap;
     clearPace(lane);
     barrier();
     gatherLoads(lane, range);
     barrier();
     if (g > 0.0) gatherPaces(lane, range, g, float(height));
     barrier();
-    return paceFrom(is_heap, most, carries);
+    return paceFrom(is_heap, is_ordered, most, carries);
 }

@@ -52,7 +52,7 @@ float wholeStep() { return push_.gravity.w; }
 #include "lib/island_heights.glsl"
 #include "lib/pace.glsl"
 
-shared uint most_sides, leaning; // contacts that lean
+shared uint most_sides, leaning, facing, of_cells; // contacts that lean; those of them in which faces meet in four points; others of cells
 #ifdef BOUNCE
 shared uint lively, met;
 #include "lib/meet_contact.glsl"
@@ -74,6 +74,14 @@ void listMember(uint body, uint c, uint first) {
     atomicMax(most_sides, adjacency_start[body + 1u] - side);
 }
 
+bool hasCells(uint body) { return shapes[body].pieces.y > 1u; }
+
+void noteLeaning(uvec4 ids) {
+    atomicAdd(leaning, 1u);
+    if (ids.z == uint(MANIFOLD_POINTS)) atomicAdd(facing, 1u);
+    else if (hasCells(ids.x) || hasCells(ids.y)) atomicAdd(of_cells, 1u);
+}
+
 void listMembers(uint lane, uvec2 range, uint first) {
     for (uint c = range.x + lane; c < range.y; c += LANES) {
         uvec4 ids = solver_contacts[c].ids;
@@ -81,7 +89,7 @@ void listMembers(uint lane, uvec2 range, uint first) {
         listMember(ids.y, c, first);
         bool leans = mayLean(c);
         solver_contacts[c].pace.w = leans ? 1u : 0u;
-        if (leans) atomicAdd(leaning, 1u);
+        if (leans) noteLeaning(ids);
     }
 }
 
@@ -213,7 +221,7 @@ void main() {
     if (!begins && members[first - 1u] >= solver_contacts[range.x].pace.y) return;
     if (lane == 0u) {
         member_count = begins ? 0u : members[first - 2u];
-        most_sides = leaning = 0u;
+        most_sides = leaning = facing = of_cells = 0u;
     }
     barrier();
     uvec2 to_begin = begins ? range : range.xx;
@@ -221,9 +229,10 @@ void main() {
     sync();
     uint height = heightOfIsland(lane, to_begin), turns = turnsOf(range, member_count, most_sides);
     bool is_heap = isHeap(leaning, member_count);
+    may_hurry = !is_heap || nearlyAll(facing, leaning);
     uint most = affordable(is_heap, turns);
     bool carries;
-    uint chosen = paceOf(lane, to_begin, height, is_heap, most, carries), pace = begins ? chosen : solver_contacts[range.x].pace.y;
+    uint chosen = paceOf(lane, to_begin, height, is_heap, nearlyAll(facing + of_cells, leaning), most, carries), pace = begins ? chosen : solver_contacts[range.x].pace.y;
     takePace(lane, to_begin, pace, carries);
     sync();
     setSubstep(pace);
