@@ -11,7 +11,7 @@
 
 namespace {
 
-using brittle::BodyDescription, brittle::ColliderDescription, brittle::Double3, brittle::SceneDescription, brittle::ShapeKind;
+using brittle::BodyDescription, brittle::ColliderDescription, brittle::SceneDescription, brittle::ShapeKind;
 using support::Shot, support::ShotDraw, support::SceneRun;
 
 constexpr brittle::SurfaceDescription kSmooth = {.friction = 0, .restitution = 0};

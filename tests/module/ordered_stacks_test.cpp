@@ -34,7 +34,7 @@ SceneDescription columns(uint32_t count, uint32_t height, double edge, double ga
     return scene;
 }
 
-// Of bricks of 0.4 x 0.2 x 0.2 m in running bond, with half bricks at the ends of every other row.
+// The bricks measure 0.4 x 0.2 x 0.2 m and lie in running bond, with half bricks at the ends of every other row.
 SceneDescription brickWall(uint32_t bricks, uint32_t rows) {
     SceneDescription scene = emptyGround();
     for (uint32_t row = 0; row < rows; ++row) {
@@ -56,7 +56,7 @@ SceneDescription pyramid(uint32_t base) {
     return scene;
 }
 
-// As for a single stack: a hundredth of an edge aside, two hundredths down, 5 mm/s.
+// The limits are those of a single stack: a hundredth of an edge aside, two hundredths down, 5 mm/s.
 void expectToStand(const SceneDescription& scene, double edge) {
     SceneRun run(scene);
     run.step(1200);
@@ -69,9 +69,7 @@ void expectToStand(const SceneDescription& scene, double edge) {
     }
 }
 
-TEST(OrderedStacks, OfTwoColumnsThatTouchStand) {
-    expectToStand(columns(2, 8, 1, 0), 1);
-}
+TEST(OrderedStacks, OfTwoColumnsThatTouchStand) { expectToStand(columns(2, 8, 1, 0), 1); }
 
 TEST(OrderedStacks, OfTwoColumnsWithANarrowGapStand) { expectToStand(columns(2, 8, 1, 0.01), 1); }
 TEST(OrderedStacks, OfBricksInBondStand) { expectToStand(brickWall(5, 10), 0.2); }

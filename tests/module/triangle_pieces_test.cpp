@@ -21,7 +21,7 @@ std::vector<uint32_t> hiddenSides(const std::vector<Double3>& places, const std:
     return hidden;
 }
 
-// The second triangle is turned about the diagonal 1 to 2 by so many degrees.
+// The second triangle is turned by `degrees` about the diagonal from vertex 1 to vertex 2.
 std::vector<Double3> square(double degrees) {
     const double angle = degrees * std::acos(-1) / 180, half = std::sqrt(0.5);
     return {
