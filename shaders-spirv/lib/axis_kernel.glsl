@@ -44,7 +44,7 @@ const float kTie = 2e-5;
 
 void loadHulls(uint k) {
     pair = loadPair(pairs[k], push);
-    is_fast = dot(pair.motion, pair.motion) > pair.margin * pair.margin;
+    is_fast = isFast(pair);
     if (!is_fast) pair.motion = vec3(0.0);
     tie = kTie * pair.smaller + pair.rounding;
     corner_counts = min(uvec2(pair.hull[0].count.x, pair.hull[1].count.x), uvec2(HULL_VERTICES));

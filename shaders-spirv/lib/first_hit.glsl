@@ -1,4 +1,5 @@
-// What a body touches first: what it lies deepest in, then what it meets first on its straight way, then what it is nearest to.
+// The order in which a body touches hulls. First comes the hull that it lies deepest in, then the one that it meets first on its straight
+// way, then the one that it is nearest to.
 //
 // Ways of one body, or of two bodies against each other, are as long as they take. So the earliest hit has the shortest way.
 //

@@ -38,7 +38,7 @@ struct Hit {
     float gap;  // that is left then along the axis
 };
 
-// What moves is A or B in both pairs, or A in one and B in the other.
+// The body that moves may be A in one pair and B in the other. Then the other hit is seen the other way round.
 Hit hitOf(uint k) {
     AxisRecord record = axes[k];
     uint mover = moves(pair.ids.w) ? pair.ids.w : pair.ids.z;
@@ -97,10 +97,9 @@ bool hides(Hit first, vec3 axis) {
     return gap >= first.gap - slack && dot(first.axis, axis) < kSameAxis;
 }
 
-// As found, or what is left of it behind what is touched first.
+// Returns the record as it was found, unless what is touched first hides that axis.
 AxisRecord unlessHidden(uint k, AxisRecord record) {
-    bool is_fast = dot(pair.motion, pair.motion) > pair.margin * pair.margin;
-    if (push.hides == 0u || record.info.x == AXIS_APART || !(is_fast || pair.reach > 0.0)) return record;
+    if (push.hides == 0u || record.info.x == AXIS_APART || !isFastOrTurns(pair)) return record;
     uint other = firstHit();
     if (other == NO_HIT || other == k) return record;
     Hit first = hitOf(other);

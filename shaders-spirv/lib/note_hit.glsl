@@ -1,7 +1,7 @@
-// Notes what a pair touches with its bodies, where that is earlier than what they have. What lies beside a triangle, behind a hidden side
-// of it, does not touch it.
+// Notes with both bodies of a pair that they touch, if they have touched nothing earlier. A hull that lies beside a triangle, behind a
+// hidden side of it, does not touch it.
 //
-// Wants `pair`, `push`, `is_fast` and `first_hits` declared.
+// Wants `pair`, `push` and `first_hits` declared.
 #ifndef NOTE_HIT_GLSL
 #define NOTE_HIT_GLSL
 #include "lib/first_hit.glsl"
@@ -12,7 +12,7 @@ void noteOrder(uint body, bool other_moves, uint order) {
 }
 
 void noteHit(AxisRecord record) {
-    if (push.hides == 0u || !touches(record) || !(is_fast || pair.reach > 0.0)) return;
+    if (push.hides == 0u || !touches(record) || !isFastOrTurns(pair)) return;
     bool moves_a = moves(pair.ids.z), moves_b = moves(pair.ids.w);
     uint order = orderOfHit(record);
     if (moves_a) noteOrder(pair.ids.z, moves_b, order);

@@ -1,4 +1,4 @@
-// In which pair a body touches something first, a lane a pair. Of pairs with the same order the one with the lowest index.
+// Names the pair in which each body touches something first; one lane per pair. If several pairs have the same order, the lowest index counts.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "lib/kernel.glsl"
@@ -23,8 +23,10 @@ void nameOf(uint body, bool other_moves, uint order, uint k) {
 
 void main() {
     uint k = flatIndex();
-    if (k >= min(counts[push.count_at], push.capacity) || !touches(axes[k])) return;
-    uint a = pieces[pairs[k].x].ids.y, b = pieces[pairs[k].y].ids.y, order = orderOfHit(axes[k]);
+    if (k >= min(counts[push.count_at], push.capacity)) return;
+    AxisRecord record = axes[k];
+    if (!touches(record)) return;
+    uint a = pieces[pairs[k].x].ids.y, b = pieces[pairs[k].y].ids.y, order = orderOfHit(record);
     bool moves_a = moves(a), moves_b = moves(b);
     if (moves_a) nameOf(a, moves_b, order, k);
     if (moves_b) nameOf(b, moves_a, order, k);

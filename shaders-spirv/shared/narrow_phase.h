@@ -29,7 +29,7 @@ struct AxisRecord {
     uvec4 info; // feature, reference hull (0 is A), its face, the other's face
 };
 
-// What a body touches first in a step: of what does not move, and of what moves. NO_HIT where it touches nothing.
+// The pairs in which a body first touches a fixed body and a moving one in a step. NO_HIT if it touches none.
 struct FirstHits {
     uint fixed_order; // the lower, the earlier (lib/first_hit.glsl)
     uint fixed_pair;

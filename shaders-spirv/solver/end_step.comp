@@ -51,8 +51,8 @@ void noteBorne(uint b, float gained) {
     bodies[b].sector.w = is_borne ? bodies[b].sector.w | BODY_BORNE : bodies[b].sector.w & ~BODY_BORNE;
 }
 
-// What is held once hangs. What goes further than its own radius in a step may tumble along a floor: it is held for a few steps, and goes
-// on.
+// A body that is held once hangs. One that goes further than its own radius in a step may tumble along a floor: it hangs only if it is held
+// in BODY_HELD / BODY_HELD_ONCE steps in a row.
 int withHeld(int flags, bool held, bool goes_far) {
     int steps = held ? min((flags & BODY_HELD) + BODY_HELD_ONCE, BODY_HELD) : 0;
     bool hangs = held && (!goes_far || steps == BODY_HELD);

@@ -232,7 +232,9 @@ void main() {
     may_hurry = !is_heap || nearlyAll(facing, leaning);
     uint most = affordable(is_heap, turns);
     bool carries;
-    uint chosen = paceOf(lane, to_begin, height, is_heap, nearlyAll(facing + of_cells, leaning), most, carries), pace = begins ? chosen : solver_contacts[range.x].pace.y;
+    bool is_ordered = nearlyAll(facing + of_cells, leaning);
+    uint chosen = paceOf(lane, to_begin, height, is_heap, is_ordered, most, carries);
+    uint pace = begins ? chosen : solver_contacts[range.x].pace.y;
     takePace(lane, to_begin, pace, carries);
     sync();
     setSubstep(pace);

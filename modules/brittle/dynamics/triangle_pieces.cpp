@@ -2,50 +2,52 @@
 
 #include "modules/brittle/mesh/vector_math.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
 
 namespace brittle {
 namespace {
 
 constexpr double kLevel = 0.9962; // cosine of five degrees
 
-using Side = std::array<Float3, 2>; // the lower corner first
-
 Double3 normalOf(const PieceShape& piece) {
     const Double3 base = toDouble(piece.vertices[0]);
     return cross(toDouble(piece.vertices[1]) - base, toDouble(piece.vertices[2]) - base);
 }
 
-// The side that a vertex is not on, and whether the triangle runs along it from the lower to the higher corner.
-std::pair<Side, bool> sideOf(const PieceShape& piece, size_t vertex) {
-    const Float3 &from = piece.vertices[(vertex + 1) % 3], &to = piece.vertices[(vertex + 2) % 3];
-    return from < to ? std::pair{Side{from, to}, true} : std::pair{Side{to, from}, false};
-}
-
-struct Neighbor {
-    size_t piece;
-    bool runs_up;
+// A side of a triangle: the one that `vertex` is not on.
+struct Side {
+    std::array<Float3, 2> ends; // the lower one first
+    bool runs_up;               // the triangle runs along it from the lower to the higher end
+    size_t piece, vertex;
 };
 
+Side sideOf(const std::vector<PieceShape>& pieces, size_t piece, size_t vertex) {
+    const auto& corners = pieces[piece].vertices;
+    const Float3 &from = corners[(vertex + 1) % 3], &to = corners[(vertex + 2) % 3];
+    const bool runs_up = from < to;
+    return {{runs_up ? from : to, runs_up ? to : from}, runs_up, piece, vertex};
+}
+
+// Sides with the same ends come one after the other.
+std::vector<Side> sortedSides(const std::vector<PieceShape>& pieces) {
+    std::vector<Side> sides;
+    for (size_t piece = 0; piece < pieces.size(); ++piece)
+        for (size_t vertex = 0; vertex < 3; ++vertex)
+            sides.push_back(sideOf(pieces, piece, vertex));
+    std::ranges::sort(sides, {}, &Side::ends);
+    return sides;
+}
+
 void hideSides(std::vector<PieceShape>& pieces) {
-    std::map<Side, std::vector<Neighbor>> sides;
-    for (size_t k = 0; k < pieces.size(); ++k)
-        for (size_t v = 0; v < 3; ++v) {
-            const auto [side, runs_up] = sideOf(pieces[k], v);
-            sides[side].push_back({k, runs_up});
-        }
     std::vector<Double3> normals;
     for (const PieceShape& piece : pieces)
         normals.push_back(normalized(normalOf(piece), {0, 0, 0}));
-    for (size_t k = 0; k < pieces.size(); ++k)
-        for (size_t v = 0; v < 3; ++v) {
-            const auto [side, runs_up] = sideOf(pieces[k], v);
-            for (const Neighbor& other : sides[side]) {
-                const double cosine = dot(normals[k], normals[other.piece]) * (other.runs_up == runs_up ? -1 : 1);
-                if (other.piece != k && cosine >= kLevel) pieces[k].hidden_sides |= 1u << v;
-            }
+    const std::vector<Side> sides = sortedSides(pieces);
+    for (const Side& side : sides)
+        for (const Side& other : std::ranges::equal_range(sides, side.ends, {}, &Side::ends)) {
+            const double cosine = dot(normals[side.piece], normals[other.piece]) * (side.runs_up == other.runs_up ? -1 : 1);
+            if (side.piece != other.piece && cosine >= kLevel) pieces[side.piece].hidden_sides |= 1u << side.vertex;
         }
 }
 
