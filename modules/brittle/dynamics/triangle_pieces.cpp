@@ -45,9 +45,10 @@ void hideSides(std::vector<PieceShape>& pieces) {
         normals.push_back(normalized(normalOf(piece), {0, 0, 0}));
     const std::vector<Side> sides = sortedSides(pieces);
     for (const Side& side : sides)
-        for (const Side& other : std::ranges::equal_range(sides, side.ends, {}, &Side::ends)) {
-            const double cosine = dot(normals[side.piece], normals[other.piece]) * (side.runs_up == other.runs_up ? -1 : 1);
-            if (side.piece != other.piece && cosine >= kLevel) pieces[side.piece].hidden_sides |= 1u << side.vertex;
+        for (auto other = std::ranges::lower_bound(sides, side.ends, {}, &Side::ends);
+             other != sides.end() && other->ends == side.ends; ++other) {
+            const double cosine = dot(normals[side.piece], normals[other->piece]) * (side.runs_up == other->runs_up ? -1 : 1);
+            if (side.piece != other->piece && cosine >= kLevel) pieces[side.piece].hidden_sides |= 1u << side.vertex;
         }
 }
 
