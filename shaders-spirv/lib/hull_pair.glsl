@@ -97,10 +97,10 @@ HullPair loadPair(uvec2 of, NarrowPhasePush push) {
     return pair;
 }
 
-// Whether B moves against A by more than the margin in the step.
+// Returns whether B moves against A by more than the margin in the step.
 bool isFast(HullPair pair) { return dot(pair.motion, pair.motion) > pair.margin * pair.margin; }
 
-// Whether what the pair touches first may hide sides, and be hidden.
+// Returns whether the first contact of this pair may hide sides and be hidden.
 bool isFastOrTurns(HullPair pair) { return isFast(pair) || pair.reach > 0.0; }
 
 // How far points of hulls that turn come closer along an axis from A to B, negative where they part: at p, dot of p with xyz, and w.

@@ -97,7 +97,7 @@ float usualDepth(float thickness_a, float thickness_b, Side a, Side b) {
     return max(kDepthShare * min(thickness_a, thickness_b), slight);
 }
 
-// What begins deeper may go on a little, to get out of each other's way; but not ever deeper into what does not move, step by step.
+// A pair that begins deeper may go on a little, so that bodies get out of each other's way. Into a fixed body it may not go deeper in each step.
 float allowedDepth(vec2 thickness, float first, Side a, Side b) {
     float allowed = usualDepth(thickness.x, thickness.y, a, b), deepest = (isFlat(a) || isFlat(b) ? 1.5 : 2.0) * allowed;
     return max(allowed, first + kRoom * (moves(a.body) && moves(b.body) ? allowed : clamp(deepest - first, 0.0, allowed)));

@@ -282,7 +282,7 @@ TEST(SmallFreeMotion, LeavesWhatIsNotSolvedWhereItIs) {
     EXPECT_NE(placeOf(states[1]), bodies[1].place());
 }
 
-// The body after so many steps, of each of which only a share may be made.
+// Returns the body after `steps` steps. It may go only `share` of its way in each.
 gpu::BodyState heldFor(uint32_t steps, const RigidBody& body, const Vector& gravity, float share, float by_still) {
     Buffers b({body});
     gpu::SolverPush push{};

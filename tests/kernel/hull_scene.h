@@ -63,7 +63,7 @@ struct NarrowPhaseRun {
     engine::KernelLibrary* kernels = nullptr; // the test program's own if null
     std::vector<gpu::Birth> births = {};      // where given, of bodies: kernels specialized with SIBLINGS_ID look at them
     uint32_t steps = 0;                       // that were made
-    bool hides = false;                       // what is touched first hides sides
+    bool hides = false;                       // the first contact of a body hides sides
 };
 // Milliseconds of all repeats go to `milliseconds` where that is given.
 std::vector<gpu::Manifold> manifoldsOf(const HullScene& scene, const NarrowPhaseRun& run = {}, double* milliseconds = nullptr);

@@ -23,7 +23,7 @@ struct HullSet {
 // faces, vertices counterclockwise seen from outside. A triangle of a static mesh is a hull of three vertices and two faces,
 // one the other's reverse. Planes and edges are derived; of a face whose loop is too thin to tell its plane, the normal of that
 // number counts, if there are `normals`. `hidden_sides`: of a triangle, as in gpu::HullFace. Where it fails the set is as it
-// was: BadInput for coordinates that are no numbers, surfaces that are not closed or not convex (vertices beyond a face by a
+// was: BadInput for coordinates that are not finite, surfaces that are not closed or not convex (vertices beyond a face by a
 // thousandth of the hull's radius), Capacity for more than HULL_FACES, HULL_VERTICES or HULL_EDGES.
 engine::Result<uint32_t> addHull(HullSet& set, std::span<const Float3> vertices, std::span<const std::vector<uint32_t>> loops,
                                  std::span<const Float3> normals = {}, uint32_t hidden_sides = 0);

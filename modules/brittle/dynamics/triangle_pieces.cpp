@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace brittle {
 namespace {
@@ -39,17 +40,25 @@ std::vector<Side> sortedSides(const std::vector<PieceShape>& pieces) {
     return sides;
 }
 
-void hideSides(std::vector<PieceShape>& pieces) {
-    std::vector<Double3> normals;
-    for (const PieceShape& piece : pieces)
-        normals.push_back(normalized(normalOf(piece), {0, 0, 0}));
-    const std::vector<Side> sides = sortedSides(pieces);
+// `sides` have the same ends.
+void hideLevelSides(std::vector<PieceShape>& pieces, std::span<const Side> sides) {
     for (const Side& side : sides)
-        for (auto other = std::ranges::lower_bound(sides, side.ends, {}, &Side::ends);
-             other != sides.end() && other->ends == side.ends; ++other) {
-            const double cosine = dot(normals[side.piece], normals[other->piece]) * (side.runs_up == other->runs_up ? -1 : 1);
-            if (side.piece != other->piece && cosine >= kLevel) pieces[side.piece].hidden_sides |= 1u << side.vertex;
+        for (const Side& other : sides) {
+            if (side.piece == other.piece) continue;
+            const Double3 normal = normalized(normalOf(pieces[side.piece]), {0, 0, 0});
+            const double cosine = dot(normal, normalized(normalOf(pieces[other.piece]), {0, 0, 0}));
+            if ((side.runs_up == other.runs_up ? -cosine : cosine) >= kLevel)
+                pieces[side.piece].hidden_sides |= 1u << side.vertex;
         }
+}
+
+void hideSides(std::vector<PieceShape>& pieces) {
+    const std::vector<Side> sides = sortedSides(pieces);
+    for (auto first = sides.begin(); first != sides.end();) {
+        const auto last = std::find_if(first, sides.end(), [&](const Side& side) { return side.ends != first->ends; });
+        hideLevelSides(pieces, {first, last});
+        first = last;
+    }
 }
 
 } // namespace
