@@ -21,21 +21,24 @@ struct Side {
     std::array<Float3, 2> ends; // the lower one first
     bool runs_up;               // the triangle runs along it from the lower to the higher end
     size_t piece, vertex;
+    Double3 normal; // unit, of the triangle
 };
 
-Side sideOf(const std::vector<PieceShape>& pieces, size_t piece, size_t vertex) {
+Side sideOf(const std::vector<PieceShape>& pieces, size_t piece, size_t vertex, const Double3& normal) {
     const auto& corners = pieces[piece].vertices;
     const Float3 &from = corners[(vertex + 1) % 3], &to = corners[(vertex + 2) % 3];
     const bool runs_up = from < to;
-    return {{runs_up ? from : to, runs_up ? to : from}, runs_up, piece, vertex};
+    return {{runs_up ? from : to, runs_up ? to : from}, runs_up, piece, vertex, normal};
 }
 
 // Sides with the same ends come one after the other.
 std::vector<Side> sortedSides(const std::vector<PieceShape>& pieces) {
     std::vector<Side> sides;
-    for (size_t piece = 0; piece < pieces.size(); ++piece)
+    for (size_t piece = 0; piece < pieces.size(); ++piece) {
+        const Double3 normal = normalized(normalOf(pieces[piece]), {0, 0, 0});
         for (size_t vertex = 0; vertex < 3; ++vertex)
-            sides.push_back(sideOf(pieces, piece, vertex));
+            sides.push_back(sideOf(pieces, piece, vertex, normal));
+    }
     std::ranges::sort(sides, {}, &Side::ends);
     return sides;
 }
@@ -45,8 +48,7 @@ void hideLevelSides(std::vector<PieceShape>& pieces, std::span<const Side> sides
     for (const Side& side : sides)
         for (const Side& other : sides) {
             if (side.piece == other.piece) continue;
-            const Double3 normal = normalized(normalOf(pieces[side.piece]), {0, 0, 0});
-            const double cosine = dot(normal, normalized(normalOf(pieces[other.piece]), {0, 0, 0}));
+            const double cosine = dot(side.normal, other.normal);
             if ((side.runs_up == other.runs_up ? -cosine : cosine) >= kLevel)
                 pieces[side.piece].hidden_sides |= 1u << side.vertex;
         }
